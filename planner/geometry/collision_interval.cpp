@@ -1,0 +1,161 @@
+#include "planner/geometry/collision_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/core/assert.hpp"
+#include "planner/core/tolerances.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Directions count as parallel below this cross product. Unit vectors between cell
+/// centres less than 8,192 cells apart that are not parallel have a cross product of
+/// at least 1 / (2 * 8192^2) = 7e-9.
+constexpr double kParallelCross = 1e-10;
+
+/// The stretch of a way, in cells from its beginning, on which a point is within
+/// reach; each end either a contact or where the way itself begins or ends.
+struct Stretch {
+  double begin = 0;
+  double end = 0;
+  bool contact_at_begin = false;
+  bool contact_at_end = false;
+  bool empty = true;
+};
+
+Stretch within_reach(Vec2 point, const Displacement& way, double reach) {
+  const Vec2 offset = point - way.from;
+  if (way.length == 0) {
+    const double near = reach - kTouchDepthCells;
+    if (near <= 0 || squared_norm(offset) >= near * near) return {};
+    return {0, 0, false, false, false};
+  }
+  const double aside = cross(way.direction, offset);
+  const double half_squared = reach * reach - aside * aside;
+  // reach^2 - (reach - depth)^2 for a depth of kTouchDepthCells.
+  if (half_squared <= 2 * reach * kTouchDepthCells) return {};
+  const double half = std::sqrt(half_squared);
+  const double nearest = dot(way.direction, offset);
+  const double enter = nearest - half;
+  const double leave = nearest + half;
+  if (enter >= way.length - kTouchDepthCells || leave <= kTouchDepthCells) return {};
+  Stretch stretch;
+  stretch.empty = false;
+  stretch.contact_at_begin = enter > -kTouchDepthCells;
+  stretch.contact_at_end = leave < way.length + kTouchDepthCells;
+  stretch.begin = std::max(enter, 0.0);
+  stretch.end = std::min(leave, way.length);
+  return stretch;
+}
+
+/// Grows to the span of the candidate times that it is shown.
+class Span {
+ public:
+  explicit Span(double slack_s) : slack_s_(slack_s) {}
+
+  void add(double time_s, bool contact) {
+    const double inward_s = contact ? slack_s_ : -slack_s_;
+    begin_s_ = std::min(begin_s_, time_s + inward_s);
+    end_s_ = std::max(end_s_, time_s - inward_s);
+  }
+
+  OpenInterval interval() const {
+    // No candidate, or contacts less than two slacks apart: nothing is unsafe.
+    if (!(begin_s_ < end_s_)) return {};
+    return {begin_s_, end_s_};
+  }
+
+ private:
+  double slack_s_;
+  double begin_s_ = kForever;
+  double end_s_ = -kForever;
+};
+
+/// The obstacle stands at the end of its motion, `end`, at `time_s`: departures that
+/// bring the mover within reach of it at just that time.
+void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Span& span) {
+  const Stretch stretch = within_reach(end, move.way, reach);
+  if (stretch.empty) return;
+  span.add(time_s - stretch.begin / move.speed, stretch.contact_at_begin);
+  span.add(time_s - stretch.end / move.speed, stretch.contact_at_end);
+}
+
+/// The mover stands at an end of its way, `after_s` seconds after departure.
+void add_mover_at(Vec2 end, double after_s, const MovingDisk& obstacle, double reach, Span& span) {
+  const Stretch stretch = within_reach(end, obstacle.way, reach);
+  if (stretch.empty) return;
+  span.add(obstacle.begin_s + stretch.begin / obstacle.speed - after_s, stretch.contact_at_begin);
+  span.add(obstacle.begin_s + stretch.end / obstacle.speed - after_s, stretch.contact_at_end);
+}
+
+/// Departures for which the two pass each other at exactly `reach`, both in motion.
+void add_tangents(const Move& move, const MovingDisk& obstacle, double reach, Span& span) {
+  if (std::abs(cross(obstacle.way.direction, move.way.direction)) < kParallelCross) return;
+  const Vec2 obstacle_velocity = obstacle.velocity();
+  const Vec2 relative = move.velocity() - obstacle_velocity;
+  const double relative_squared = squared_norm(relative);
+  const Vec2 apart = move.way.from - obstacle.way.from;
+  const double turn = cross(obstacle_velocity, relative);
+  const double middle = cross(apart, relative) / turn;
+  const double half = std::abs(reach * std::sqrt(relative_squared) / turn);
+  for (const double since_begin_s : {middle - half, middle + half}) {
+    const Vec2 at_departure = apart - obstacle_velocity * since_begin_s;
+    const double after_s = -dot(at_departure, relative) / relative_squared;
+    if (after_s < 0 || after_s > move.duration) continue;
+    const double contact_s = obstacle.begin_s + since_begin_s + after_s;
+    if (contact_s < obstacle.begin_s || contact_s > obstacle.end_s) continue;
+    span.add(obstacle.begin_s + since_begin_s, true);
+  }
+}
+
+}  // namespace
+
+OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double reach) {
+  const Stretch stretch = within_reach(place, obstacle.way, reach);
+  if (stretch.empty) return {};
+  if (obstacle.at_rest()) {
+    // At rest there is no contact in time, only a beginning and an end.
+    return {obstacle.begin_s - kContactSlackCells, obstacle.end_s + kContactSlackCells};
+  }
+  Span span(kContactSlackCells / obstacle.speed);
+  span.add(obstacle.begin_s + stretch.begin / obstacle.speed, stretch.contact_at_begin);
+  span.add(obstacle.begin_s + stretch.end / obstacle.speed, stretch.contact_at_end);
+  return span.interval();
+}
+
+OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach) {
+  PLANNER_ASSERT(move.way.length > 0);
+  Span span(kContactSlackCells / std::max(move.speed, obstacle.speed));
+  add_obstacle_at(obstacle.way.from, obstacle.begin_s, move, reach, span);
+  add_obstacle_at(obstacle.way.to, obstacle.end_s, move, reach, span);
+  if (!obstacle.at_rest()) {
+    add_mover_at(move.way.from, 0, obstacle, reach, span);
+    add_mover_at(move.way.to, move.duration, obstacle, reach, span);
+    add_tangents(move, obstacle, reach, span);
+  }
+  return span.interval();
+}
+
+bool departure_overlaps(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
+  const double begin_s = std::max(departure_s, obstacle.begin_s);
+  const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
+  if (begin_s >= end_s) return false;
+  const double near = reach - kTouchDepthCells;
+  if (near <= 0) return false;
+  const double near_squared = near * near;
+  const Vec2 mover_velocity = move.velocity();
+  const Vec2 obstacle_velocity = obstacle.velocity();
+  const Vec2 relative = mover_velocity - obstacle_velocity;
+  const Vec2 apart = (move.way.from + mover_velocity * (begin_s - departure_s)) -
+                     (obstacle.way.from + obstacle_velocity * (begin_s - obstacle.begin_s));
+  const double approach = -dot(apart, relative);
+  if (approach <= 0) return squared_norm(apart) < near_squared;
+  const double relative_squared = squared_norm(relative);
+  const double span_s = end_s - begin_s;
+  if (approach >= relative_squared * span_s) return squared_norm(apart + relative * span_s) < near_squared;
+  const double aside = cross(apart, relative);
+  return aside * aside < near_squared * relative_squared;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,42 @@
+// When two disks overlap, in closed form. The heart of the planner's exactness.
+//
+// A mover that departs at time t is, tau seconds later, at a + u tau; an obstacle
+// is at p + v (t + tau - t0) during [t0, t1]. Their difference
+//     w(t, tau) = (a - p) + (u - v) tau - v (t - t0)
+// is linear in (t, tau), so { |w| < reach } is the preimage of an open disk: convex.
+// Cut by the parallelogram 0 <= tau <= duration, t0 <= t + tau <= t1 it stays convex,
+// and its projection on t, the set of unsafe departures, is one interval.
+//
+// Differs from [YA17]: departures are not tried in steps; the interval's ends are
+// found exactly and the search jumps from end to end.
+#pragma once
+
+#include "planner/geometry/interval.hpp"
+#include "planner/geometry/moving_disk.hpp"
+
+namespace sipplab {
+
+/// The times at which a disk resting at `place` overlaps `obstacle`, `reach` being the
+/// sum of the two radii, in cells.
+///  (1) Ends at which the two only touch move inwards by kContactSlackCells over the
+///      obstacle's speed, so that a gap of zero width between two such intervals
+///      survives rounding.
+///  (2) Ends at which the obstacle's motion begins or ends while the two overlap move
+///      outwards by as much: the motion before or after it continues the overlap, and
+///      no false gap may appear between the two.
+///  (3) Overlap shallower than kTouchDepthCells is none.
+OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double reach);
+
+/// The departures for which `move` leads to an overlap with `obstacle` at some time
+/// during the move; contracts (1) to (3) hold with the faster of the two speeds.
+/// Endless where the obstacle rests for ever on the way.
+///
+/// REQUIRES: move.way.length > 0.
+OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach);
+
+/// Whether departing at `departure_s` overlaps `obstacle` by kTouchDepthCells or more:
+/// one comparison of squared distances, without roots or divisions. False implies that
+/// the departure is safe up to touching; true leaves the decision to unsafe_departures.
+bool departure_overlaps(const Move& move, double departure_s, const MovingDisk& obstacle, double reach);
+
+}  // namespace sipplab

@@ -1,0 +1,56 @@
+// A disk in uniform straight motion, or at rest.
+#pragma once
+
+#include "planner/geometry/interval.hpp"
+#include "planner/geometry/vec2.hpp"
+
+namespace sipplab {
+
+/// Straight way from one point to another, without a clock.
+struct Displacement {
+  Vec2 from;
+  Vec2 to;
+  Vec2 direction;  ///< unit vector; zero where from == to
+  double length = 0;
+
+  Displacement() = default;
+  Displacement(Vec2 begin, Vec2 end) : from(begin), to(end) {
+    const Vec2 way = end - begin;
+    length = norm(way);
+    if (length > 0) direction = {way.x / length, way.y / length};
+  }
+};
+
+/// A displacement travelled at constant speed; when is not said.
+struct Move {
+  Displacement way;
+  double speed = 1;     ///< cells per second, > 0
+  double duration = 0;  ///< length / speed, in seconds
+
+  Move(const Displacement& displacement, double speed_cells_per_s)
+      : way(displacement), speed(speed_cells_per_s), duration(displacement.length / speed_cells_per_s) {}
+
+  Vec2 velocity() const { return way.direction * speed; }
+};
+
+/// A disk that follows `way` during [begin_s, end_s]; at rest where the way has no
+/// length, and then end_s may be kForever.
+struct MovingDisk {
+  Displacement way;
+  double speed = 0;  ///< length / (end_s - begin_s); 0 at rest
+  double begin_s = 0;
+  double end_s = 0;
+  double radius = 0;
+
+  static MovingDisk moving(const Displacement& way, double begin_s, double end_s, double radius) {
+    return {way, way.length > 0 ? way.length / (end_s - begin_s) : 0.0, begin_s, end_s, radius};
+  }
+  static MovingDisk resting(Vec2 place, double begin_s, double end_s, double radius) {
+    return {Displacement(place, place), 0, begin_s, end_s, radius};
+  }
+
+  bool at_rest() const { return speed == 0; }
+  Vec2 velocity() const { return way.direction * speed; }
+};
+
+}  // namespace sipplab

@@ -1,0 +1,120 @@
+#include "planner/grid/line_of_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/core/tolerances.hpp"
+
+namespace sipplab {
+namespace {
+
+/// The capsule around a segment from the origin to (dx, dy), dx >= 0 and dy >= 0.
+struct Capsule {
+  double dx;
+  double dy;
+  double radius;
+  double length;
+
+  /// The greatest x of the capsule at height y, for y within its extent. The right
+  /// boundary is an arc around the origin, a line parallel to the segment, and an arc
+  /// around the end, in the order of growing y.
+  double right_at(double y) const {
+    const double drop = length > 0 ? radius * dx / length : 0;
+    if (y >= dy - drop) return dx + half_chord(y - dy);
+    if (y <= -drop) return half_chord(y);
+    return (y + drop) * dx / dy + radius * dy / length;
+  }
+
+  /// The greatest x over heights in [low, high]. The boundary is concave in y and
+  /// greatest at y = dy.
+  double right_over(double low, double high) const {
+    low = std::max(low, -radius);
+    high = std::min(high, dy + radius);
+    if (dy < low) return right_at(low);
+    if (dy > high) return right_at(high);
+    return dx + radius;
+  }
+
+ private:
+  double half_chord(double from_centre) const {
+    return std::sqrt(std::max(0.0, radius * radius - from_centre * from_centre));
+  }
+};
+
+}  // namespace
+
+CellRun swept_run(Cell displacement, double radius, std::int32_t row) {
+  // Mirror so that both components are positive.
+  const bool mirror_x = displacement.x < 0;
+  const std::int32_t mirrored_row = displacement.y < 0 ? -row : row;
+  const double dx = std::abs(displacement.x);
+  const double dy = std::abs(displacement.y);
+  const Capsule capsule{dx, dy, radius, norm({dx, dy})};
+
+  const double low = mirrored_row - 0.5;
+  const double high = mirrored_row + 0.5;
+  if (low >= dy + radius - kTouchDepthCells || high <= -radius + kTouchDepthCells) return {};
+  const double right = capsule.right_over(low, high);
+  // The capsule is its own image under a half turn about the segment's middle.
+  const double left = dx - capsule.right_over(dy - high, dy - low);
+  // A cell from c - 0.5 to c + 0.5 is overlapped when left < c + 0.5 and c - 0.5 < right.
+  const auto first = static_cast<std::int32_t>(std::floor(left + kTouchDepthCells - 0.5)) + 1;
+  const auto last = static_cast<std::int32_t>(std::ceil(right - kTouchDepthCells + 0.5)) - 1;
+  return mirror_x ? CellRun{-last, -first} : CellRun{first, last};
+}
+
+LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
+    : width_(map.width()),
+      height_(map.height()),
+      radius_(radius_cells),
+      reach_(static_cast<std::int32_t>(std::ceil(radius_cells - 0.5 - kTouchDepthCells))) {
+  const auto stride = static_cast<std::size_t>(width_) + 1;
+  summed_.assign(stride * (static_cast<std::size_t>(height_) + 1), 0);
+  for (std::int32_t y = 0; y < height_; ++y) {
+    std::int32_t in_row = 0;
+    for (std::int32_t x = 0; x < width_; ++x) {
+      in_row += map.is_blocked({x, y}) ? 1 : 0;
+      const std::size_t below = (static_cast<std::size_t>(y) + 1) * stride + static_cast<std::size_t>(x) + 1;
+      summed_[below] = summed_[below - stride] + in_row;
+    }
+  }
+  legal_.assign(map.cell_count(), 0);
+  for (std::int32_t y = reach_; y < height_ - reach_; ++y) {
+    for (std::int32_t x = reach_; x < width_ - reach_; ++x) {
+      bool free = true;
+      for (std::int32_t row = -reach_; row <= reach_ && free; ++row) {
+        const CellRun run = swept_run({0, 0}, radius_, row);
+        free = run.last < run.first || blocked_in(x + run.first, x + run.last, y + row, y + row) == 0;
+      }
+      legal_[index({x, y})] = free ? 1 : 0;
+    }
+  }
+}
+
+std::int32_t LineOfSight::blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0,
+                                     std::int32_t y1) const {
+  const auto left = static_cast<std::size_t>(std::max(x0, 0));
+  const auto right = static_cast<std::size_t>(std::min(x1, width_ - 1) + 1);
+  const auto top = static_cast<std::size_t>(std::max(y0, 0));
+  const auto bottom = static_cast<std::size_t>(std::min(y1, height_ - 1) + 1);
+  const auto stride = static_cast<std::size_t>(width_) + 1;
+  return summed_[bottom * stride + right] - summed_[bottom * stride + left] - summed_[top * stride + right] +
+         summed_[top * stride + left];
+}
+
+bool LineOfSight::is_clear(Cell from, Cell to) const {
+  PLANNER_ASSERT(is_legal(from) && is_legal(to));
+  // Both ends lie inside the grid and so does all between them: the swept area is convex.
+  const auto [left, right] = std::minmax({from.x, to.x});
+  const auto [top, bottom] = std::minmax({from.y, to.y});
+  if (blocked_in(left - reach_, right + reach_, top - reach_, bottom + reach_) == 0) return true;
+  const Cell displacement{to.x - from.x, to.y - from.y};
+  for (std::int32_t y = top - reach_; y <= bottom + reach_; ++y) {
+    const CellRun run = swept_run(displacement, radius_, y - from.y);
+    if (run.last < run.first) continue;
+    if (blocked_in(from.x + run.first, from.x + run.last, y, y) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace sipplab

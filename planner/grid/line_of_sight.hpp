@@ -1,0 +1,68 @@
+// Which straight moves a disk can make between cell centres without touching the
+// inside of a blocked cell: "line of sight for a disk".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planner/grid/grid_map.hpp"
+
+namespace sipplab {
+
+/// Line of sight over one map for disks of one radius.
+///
+/// The swept area of a move is a capsule. In each row of cells it covers one run of
+/// cells, whose ends follow in closed form from the capsule's extent in that row; a
+/// summed-area table of blocked cells then decides the row in four look-ups.
+class LineOfSight {
+ public:
+  /// `radius_cells` > 0. O(cells).
+  LineOfSight(const GridMap& map, double radius_cells);
+
+  /// Whether a disk resting at `cell` overlaps no blocked cell and lies inside the
+  /// grid. Touching is allowed (kTouchDepthCells). O(1).
+  bool is_legal(Cell cell) const { return map_contains(cell) && legal_[index(cell)] != 0; }
+
+  /// Whether the disk can move straight from one to the other.
+  ///  (1) is_clear(a, b) == is_clear(b, a);
+  ///  (2) is_clear(a, a) holds wherever is_legal(a);
+  ///  (3) true if and only if no blocked cell is closer to the segment than the radius
+  ///      less kTouchDepthCells.
+  ///
+  /// REQUIRES: is_legal(from) and is_legal(to). O(rows between the two); O(1) where the
+  /// rectangle around the move holds no blocked cell.
+  bool is_clear(Cell from, Cell to) const;
+
+  double radius_cells() const { return radius_; }
+
+ private:
+  bool map_contains(Cell cell) const {
+    return cell.x >= 0 && cell.y >= 0 && cell.x < width_ && cell.y < height_;
+  }
+  std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(cell.x);
+  }
+  /// Blocked cells in columns x0..x1 and rows y0..y1, both included, cut to the grid.
+  std::int32_t blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const;
+
+  std::int32_t width_;
+  std::int32_t height_;
+  double radius_;
+  std::int32_t reach_;                ///< cells beside its own that the disk can overlap
+  std::vector<std::int32_t> summed_;  ///< (width + 1) x (height + 1)
+  std::vector<std::uint8_t> legal_;
+};
+
+/// The run of columns [first, last] that the swept disk overlaps in one row of cells.
+struct CellRun {
+  std::int32_t first = 0;
+  std::int32_t last = -1;  ///< less than `first`: none
+};
+
+/// Cells whose inside a disk of `radius` overlaps by more than kTouchDepthCells while it
+/// moves from (0, 0) to `displacement`, in the row of cells `row`.
+CellRun swept_run(Cell displacement, double radius, std::int32_t row);
+
+}  // namespace sipplab

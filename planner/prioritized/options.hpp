@@ -1,0 +1,52 @@
+// Options of a run of prioritized planning, and their names as users write them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sipplab {
+
+/// Priority order of the first try. Ties by input position.
+enum class InitialOrder { kFifo, kShortestFirst, kLongestFirst, kRandom };
+
+/// What happens to the order after a robot fails.
+enum class Rescheduling {
+  kNone,           ///< report the failure
+  kDeterministic,  ///< the failed robot to the front, until success or until an order repeats
+  kRandom,         ///< seeded shuffles, none tried twice
+};
+
+/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random".
+std::string_view name(InitialOrder order);
+std::string_view name(Rescheduling rescheduling);
+std::optional<InitialOrder> parse_initial_order(std::string_view text);
+std::optional<Rescheduling> parse_rescheduling(std::string_view text);
+
+inline constexpr double kInfiniteSsi = std::numeric_limits<double>::infinity();
+/// The time span of the paper's Table 1, in seconds.
+inline constexpr double kDefaultSsi = 5;
+/// Wall-clock seconds; the paper used five minutes.
+inline constexpr double kDefaultTimeLimitS = 300;
+
+/// "5", "2.5", "inf", "infinity": a real number >= 0, or infinity.
+std::optional<double> parse_ssi(std::string_view text);
+/// Shortest text that parse_ssi reads back as the same value; "inf" for infinity.
+std::string format_ssi(double ssi);
+
+struct PlannerOptions {
+  InitialOrder order = InitialOrder::kShortestFirst;
+  Rescheduling rescheduling = Rescheduling::kDeterministic;
+  double ssi_s = kDefaultSsi;  ///< start-safe interval; 0 turns it off
+  bool any_angle = true;
+  int connectedness = 2;  ///< 2^k neighbours, k = 2..5
+  std::uint64_t seed = 1;
+
+  double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
+  std::uint64_t max_expansions = UINT64_MAX;  ///< over all tries
+  std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first
+};
+
+}  // namespace sipplab

@@ -1,0 +1,102 @@
+// The space-time that planned robots, dynamic obstacles and protected starts take:
+// planned disks in, safe intervals and earliest departures out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/geometry/interval.hpp"
+#include "planner/geometry/moving_disk.hpp"
+#include "planner/grid/grid_map.hpp"
+#include "planner/solution/trajectory.hpp"
+
+namespace sipplab {
+
+/// Disks in motion, found by place and time.
+///
+/// Each cell keeps a timeline: the disks that come near enough to its square to
+/// matter to a robot whose centre is in that square, with the span of time in which
+/// they are near, sorted by its beginning. A query bisects the timelines of the
+/// cells on its way for just the seconds that it spends there.
+class ReservationTable {
+ public:
+  using DiskId = std::uint32_t;
+
+  /// For robots of radius up to `max_radius_cells` that ask.
+  ReservationTable(const GridMap& map, double max_radius_cells);
+
+  /// Forgets all disks; keeps memory for the next try.
+  void clear();
+
+  /// Adds one disk. O(cells near its way * log disks there).
+  DiskId add(const MovingDisk& disk);
+  /// Removes a disk that rests. REQUIRES: added, not removed yet, at rest.
+  void remove(DiskId id);
+  /// Adds a whole trajectory and the rest at its end for ever.
+  void add(const Trajectory& trajectory, double radius_cells);
+
+  /// Maximal closed spans in which a disk of this radius may stay at the cell, in
+  /// order. Valid until the next call of any function. O(1) while nothing near the
+  /// cell has changed, else O(n log n) in its timeline.
+  std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells);
+
+  /// The least departure t >= from_s for which the move overlaps no disk. Gives up as
+  /// soon as every departure up to until_s is known to be unsafe and then returns
+  /// some lower bound on the least safe departure that is greater than until_s.
+  ///
+  /// REQUIRES: move.way joins two different cell centres inside the grid.
+  double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s);
+
+  /// The same by looking at every disk: the plain twin, for tests and benchmarks.
+  double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
+
+  /// Disks looked at closely by earliest_departure since construction: a count of work.
+  std::uint64_t disks_examined() const { return disks_examined_; }
+
+ private:
+  /// A disk's stay near one cell.
+  struct Presence {
+    double enter_s;
+    double exit_s;
+    DiskId disk;
+  };
+  struct Timeline {
+    std::vector<Presence> passing;  ///< sorted by enter_s; finite
+    std::vector<Presence> resting;  ///< for ever from enter_s on
+    double longest_s = 0;           ///< no passing presence is longer
+    // Safe intervals of the cell for one radius, while still true.
+    std::uint32_t intervals_begin = 0;
+    std::uint32_t intervals_end = 0;
+    double intervals_radius = -1;  ///< negative: to be computed
+  };
+  /// A cell on the way of a move, with the span of seconds after departure in which
+  /// the mover's centre is in its square.
+  struct Visit {
+    std::size_t cell;
+    double enter_s;
+    double leave_s;
+  };
+
+  template <class Visitor>
+  void for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const;
+  void list_visits(const Move& move);
+  /// Where departing at `departure_s` overlaps a disk met during `visit`: the end of
+  /// the unsafe departures around it. Else departure_s.
+  double next_departure(const Move& move, const Visit& visit, double radius_cells, double departure_s);
+  double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
+                        double departure_s) const;
+
+  const GridMap& map_;
+  double max_radius_;
+  std::vector<MovingDisk> disks_;
+  std::vector<Timeline> timelines_;
+  std::vector<std::size_t> used_cells_;   ///< timelines that are not empty
+  std::vector<SafeInterval> intervals_;   ///< arena of all timelines' safe intervals
+  std::vector<OpenInterval> collisions_;  ///< scratch
+  std::vector<Visit> visits_;             ///< scratch
+  std::uint64_t disks_examined_ = 0;
+};
+
+}  // namespace sipplab

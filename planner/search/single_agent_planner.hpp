@@ -1,0 +1,57 @@
+// What prioritized planning asks of a planner for one robot. Start-safe intervals
+// and re-scheduling work through this interface alone, so they go with any
+// planner that can respect a ReservationTable.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "planner/core/expected.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/reservation/reservation_table.hpp"
+#include "planner/solution/trajectory.hpp"
+
+namespace sipplab {
+
+/// Why there is no trajectory.
+enum class PlanFailure {
+  kNoPath,          ///< the search space is exhausted
+  kExpansionLimit,  ///< the budget of expansions is used up
+  kTimeLimit,       ///< the deadline has passed
+};
+
+/// Work done, in counts that are the same on every machine.
+struct SearchStatistics {
+  std::uint64_t expansions = 0;   ///< nodes popped and expanded
+  std::uint64_t generations = 0;  ///< nodes created or improved
+
+  SearchStatistics& operator+=(const SearchStatistics& other) {
+    expansions += other.expansions;
+    generations += other.generations;
+    return *this;
+  }
+};
+
+/// What one search may spend.
+struct SearchLimits {
+  std::uint64_t max_expansions = UINT64_MAX;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+};
+
+class SingleAgentPlanner {
+ public:
+  virtual ~SingleAgentPlanner() = default;
+
+  /// A trajectory for `agent` of the instance given at construction that collides
+  /// with nothing in `reservations`, or the reason why none was found. Adds its
+  /// work to `statistics`, whatever the outcome.
+  virtual Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
+                                                 const SearchLimits& limits,
+                                                 SearchStatistics& statistics) = 0;
+
+  /// A lower bound on the travel time of `agent`, in seconds, for initial orders.
+  virtual double lower_bound_s(AgentIndex agent) const = 0;
+};
+
+}  // namespace sipplab

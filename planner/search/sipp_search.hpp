@@ -1,0 +1,80 @@
+// SIPP and AA-SIPP for one robot. [PL11]: Phillips and Likhachev, ICRA 2011.
+// [YA17]: Yakovlev and Andreychuk, ICAPS 2017, algorithm AA-SIPP.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "planner/grid/line_of_sight.hpp"
+#include "planner/search/open_list.hpp"
+#include "planner/search/single_agent_planner.hpp"
+#include "planner/search/sipp_node.hpp"
+
+namespace sipplab {
+
+struct SippOptions {
+  /// Try to reach each successor straight from the parent of the expanded node as well.
+  bool any_angle = true;
+  /// 2^k neighbours, k = 2..5.
+  int connectedness = 2;
+  /// Try the straight way to the goal from each expanded node; when it arrives as early
+  /// as the node's f promises, nothing can be better and the search ends. Any-angle only.
+  bool direct_shot = true;
+  /// Ask the reservation table by its indexed search; off: by its plain twin.
+  bool indexed_reservations = true;
+};
+
+class SippSearch final : public SingleAgentPlanner {
+ public:
+  /// The instance must outlive the search. REQUIRES: !find_error(instance).
+  SippSearch(const Instance& instance, SippOptions options);
+
+  Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
+                                         const SearchLimits& limits, SearchStatistics& statistics) override;
+
+  /// Straight-line distance (any-angle) or the neighbourhood's distance over speed.
+  double lower_bound_s(AgentIndex agent) const override;
+
+ private:
+  /// The nodes of one cell: consecutive, one for each safe interval. Laid out when a
+  /// search first comes to the cell.
+  struct CellNodes {
+    std::uint32_t search = 0;  ///< number of the search that laid them out
+    NodeId first = kNoNode;
+    NodeId last = kNoNode;  ///< one past
+  };
+
+  void begin(AgentIndex agent, ReservationTable& reservations);
+  CellNodes nodes_of(Cell cell);
+  double lower_bound_s(Cell from, Cell to) const;
+  /// A lower bound on the arrival at the goal by way of the node.
+  double f(const SippNode& node) const;
+  bool is_goal(const SippNode& node) const;
+
+  void expand(NodeId id, SearchStatistics& statistics);
+  /// Lowers the arrivals at the nodes of `cell` that are reached earlier straight from
+  /// `from` than by what is known.
+  void relax(NodeId from, Cell cell, SearchStatistics& statistics);
+  /// Whether the goal is reached straight from the node exactly at its f; then the goal's
+  /// node says how.
+  bool shoot(NodeId id, SearchStatistics& statistics);
+  double earliest_departure(const Move& move, double from_s, double until_s);
+  Trajectory reconstruct(NodeId goal) const;
+
+  const Instance& instance_;
+  SippOptions options_;
+  std::vector<std::unique_ptr<LineOfSight>> lines_of_sight_;  ///< one for each radius
+  std::vector<const LineOfSight*> line_of_sight_of_;          ///< by agent
+
+  // The search under way.
+  const Agent* agent_ = nullptr;
+  const LineOfSight* line_of_sight_ = nullptr;
+  ReservationTable* reservations_ = nullptr;
+  double goal_from_s_ = 0;  ///< the goal is free for ever from here on
+  std::uint32_t search_ = 0;
+  std::vector<CellNodes> cell_nodes_;
+  std::vector<SippNode> nodes_;
+  OpenList open_;
+};
+
+}  // namespace sipplab

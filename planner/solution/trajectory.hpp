@@ -1,0 +1,35 @@
+// What a robot does: straight motions and waits from time 0 on, then rest at the
+// last position for ever.
+#pragma once
+
+#include <vector>
+
+#include "planner/grid/cell.hpp"
+
+namespace sipplab {
+
+/// A straight motion at constant speed from one cell centre to another, or a
+/// wait where the two are equal. Times in seconds of plan time.
+struct TimedMotion {
+  double begin_s = 0;
+  double end_s = 0;
+  Cell from;
+  Cell to;
+
+  bool is_wait() const { return from == to; }
+  friend bool operator==(const TimedMotion&, const TimedMotion&) = default;
+};
+
+/// Motions follow each other without gap in time or place; the first begins at
+/// time 0 in `start`. A robot that never leaves its start has no motions.
+struct Trajectory {
+  Cell start;
+  std::vector<TimedMotion> motions;
+
+  Cell end() const { return motions.empty() ? start : motions.back().to; }
+  /// When the last motion ends, in seconds; 0 for a robot that never moves.
+  double arrival_s() const { return motions.empty() ? 0.0 : motions.back().end_s; }
+  friend bool operator==(const Trajectory&, const Trajectory&) = default;
+};
+
+}  // namespace sipplab

@@ -1,0 +1,67 @@
+// What "right" means: an independent check of a solution against its instance.
+// The planner solves for the times at which two disks touch; the validator
+// minimises their distance. The two share definitions and no formula.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/instance/instance.hpp"
+#include "planner/solution/solution.hpp"
+
+namespace sipplab {
+
+enum class ViolationKind {
+  kAgentCount,       ///< not one trajectory for each agent
+  kNotFinite,        ///< a time that is not a finite number, or negative
+  kEndpoint,         ///< does not begin at the start or does not end at the goal
+  kDiscontinuity,    ///< a gap in time or place between two motions
+  kSpeed,            ///< a motion that does not take length / speed
+  kStaticObstacle,   ///< the body overlaps a blocked cell or leaves the grid
+  kAgentCollision,   ///< two robots closer than the sum of their radii
+  kObstacleCollision,  ///< a robot and a dynamic obstacle likewise
+  kStartSafeInterval,  ///< a robot too close to the start of a lower-priority robot in [0, ssi]
+};
+std::string_view name(ViolationKind kind);
+
+struct Violation {
+  ViolationKind kind = ViolationKind::kAgentCount;
+  AgentIndex agent = 0;
+  /// The other robot (or the obstacle's position for kObstacleCollision).
+  std::optional<std::size_t> other;
+  double time_s = 0;       ///< when the violation is deepest, or where it stands in the trajectory
+  double depth_cells = 0;  ///< overlap at that time; for other kinds the size of the error
+  std::string message;     ///< one line for a person
+};
+
+struct ValidationOptions {
+  /// The start-safe interval whose promise is to be checked, with the final
+  /// priority order; 0 or an empty order: nothing to check.
+  double ssi_s = 0;
+  std::vector<AgentIndex> order;
+  /// Stop collecting after this many violations.
+  std::size_t max_violations = 100;
+};
+
+struct ValidationReport {
+  std::vector<Violation> violations;
+  /// Least distance of any two bodies (robots and dynamic obstacles) minus the sum
+  /// of their radii, in cells: negative means overlap, however small. Infinity
+  /// where there are no two bodies.
+  double min_clearance_cells = std::numeric_limits<double>::infinity();
+
+  bool valid() const { return violations.empty(); }
+};
+
+/// Checks everything that a solution promises: endpoints, continuity, speed, static
+/// clearance, separation of every pair for all time, start-safe intervals. Overlap
+/// up to kValidatorToleranceCells passes. Never asserts on a bad solution.
+/// Pairs are found by sweeping a uniform grid over (place, time); each candidate
+/// pair of motions is decided in closed form.
+ValidationReport validate(const Instance& instance, const Solution& solution, const ValidationOptions& options = {});
+
+}  // namespace sipplab
