@@ -92,15 +92,14 @@ void add_mover_at(Vec2 end, double after_s, const MovingDisk& obstacle, double r
 /// Departures for which the two pass each other at exactly `reach`, both in motion.
 void add_tangents(const Move& move, const MovingDisk& obstacle, double reach, Span& span) {
   if (std::abs(cross(obstacle.way.direction, move.way.direction)) < kParallelCross) return;
-  const Vec2 obstacle_velocity = obstacle.velocity();
-  const Vec2 relative = move.velocity() - obstacle_velocity;
+  const Vec2 relative = move.velocity - obstacle.velocity;
   const double relative_squared = squared_norm(relative);
   const Vec2 apart = move.way.from - obstacle.way.from;
-  const double turn = cross(obstacle_velocity, relative);
+  const double turn = cross(obstacle.velocity, relative);
   const double middle = cross(apart, relative) / turn;
   const double half = std::abs(reach * std::sqrt(relative_squared) / turn);
   for (const double since_begin_s : {middle - half, middle + half}) {
-    const Vec2 at_departure = apart - obstacle_velocity * since_begin_s;
+    const Vec2 at_departure = apart - obstacle.velocity * since_begin_s;
     const double after_s = -dot(at_departure, relative) / relative_squared;
     if (after_s < 0 || after_s > move.duration) continue;
     const double contact_s = obstacle.begin_s + since_begin_s + after_s;
@@ -135,27 +134,6 @@ OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, dou
     add_tangents(move, obstacle, reach, span);
   }
   return span.interval();
-}
-
-bool departure_overlaps(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
-  const double begin_s = std::max(departure_s, obstacle.begin_s);
-  const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
-  if (begin_s >= end_s) return false;
-  const double near = reach - kTouchDepthCells;
-  if (near <= 0) return false;
-  const double near_squared = near * near;
-  const Vec2 mover_velocity = move.velocity();
-  const Vec2 obstacle_velocity = obstacle.velocity();
-  const Vec2 relative = mover_velocity - obstacle_velocity;
-  const Vec2 apart = (move.way.from + mover_velocity * (begin_s - departure_s)) -
-                     (obstacle.way.from + obstacle_velocity * (begin_s - obstacle.begin_s));
-  const double approach = -dot(apart, relative);
-  if (approach <= 0) return squared_norm(apart) < near_squared;
-  const double relative_squared = squared_norm(relative);
-  const double span_s = end_s - begin_s;
-  if (approach >= relative_squared * span_s) return squared_norm(apart + relative * span_s) < near_squared;
-  const double aside = cross(apart, relative);
-  return aside * aside < near_squared * relative_squared;
 }
 
 }  // namespace sipplab

@@ -11,6 +11,9 @@
 // found exactly and the search jumps from end to end.
 #pragma once
 
+#include <algorithm>
+
+#include "planner/core/tolerances.hpp"
 #include "planner/geometry/interval.hpp"
 #include "planner/geometry/moving_disk.hpp"
 
@@ -37,6 +40,24 @@ OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, dou
 /// Whether departing at `departure_s` overlaps `obstacle` by kTouchDepthCells or more:
 /// one comparison of squared distances, without roots or divisions. False implies that
 /// the departure is safe up to touching; true leaves the decision to unsafe_departures.
-bool departure_overlaps(const Move& move, double departure_s, const MovingDisk& obstacle, double reach);
+/// Inline: the planner asks it a hundred times for each interval that it computes.
+inline bool departure_overlaps(const Move& move, double departure_s, const MovingDisk& obstacle,
+                               double reach) {
+  const double begin_s = std::max(departure_s, obstacle.begin_s);
+  const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
+  if (begin_s >= end_s) return false;
+  const double near = reach - kTouchDepthCells;
+  const double near_squared = near > 0 ? near * near : 0;
+  const Vec2 relative = move.velocity - obstacle.velocity;
+  const Vec2 apart = (move.way.from + move.velocity * (begin_s - departure_s)) -
+                     (obstacle.from + obstacle.velocity * (begin_s - obstacle.begin_s));
+  const double approach = -dot(apart, relative);
+  if (approach <= 0) return squared_norm(apart) < near_squared;
+  const double relative_squared = squared_norm(relative);
+  const double span_s = end_s - begin_s;
+  if (approach >= relative_squared * span_s) return squared_norm(apart + relative * span_s) < near_squared;
+  const double aside = cross(apart, relative);
+  return aside * aside < near_squared * relative_squared;
+}
 
 }  // namespace sipplab

@@ -1,6 +1,7 @@
 #include "planner/geometry/interval_set.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "planner/core/assert.hpp"
 
@@ -9,18 +10,28 @@ namespace sipplab {
 void IntervalSet::remove_open(OpenInterval span) {
   PLANNER_ASSERT(span.begin_s <= span.end_s);
   if (span.empty()) return;
-  std::vector<Interval> kept;
-  kept.reserve(intervals_.size() + 1);
-  for (const Interval& interval : intervals_) {
-    if (interval.end_s <= span.begin_s || interval.begin_s >= span.end_s) {
-      kept.push_back(interval);
-      continue;
-    }
-    if (interval.begin_s <= span.begin_s) kept.push_back({interval.begin_s, span.begin_s});
-    // Nothing begins at infinity: a span without end leaves no point behind it.
-    if (interval.end_s >= span.end_s && span.end_s < kForever) kept.push_back({span.end_s, interval.end_s});
+  // The intervals that meet the span: from the first that ends behind its beginning to
+  // the last that begins before its end. What they leave is at most one piece each side.
+  const auto first =
+      std::partition_point(intervals_.begin(), intervals_.end(),
+                           [&](const Interval& interval) { return interval.end_s <= span.begin_s; });
+  const auto last = std::partition_point(
+      first, intervals_.end(), [&](const Interval& interval) { return interval.begin_s < span.end_s; });
+  if (first == last) return;
+  std::array<Interval, 2> left;
+  std::size_t pieces = 0;
+  if (first->begin_s <= span.begin_s) left[pieces++] = {first->begin_s, span.begin_s};
+  const double end_s = std::prev(last)->end_s;
+  // Nothing begins at infinity: a span without end leaves no point behind it.
+  if (end_s >= span.end_s && span.end_s < kForever) left[pieces++] = {span.end_s, end_s};
+
+  const auto room = static_cast<std::size_t>(last - first);
+  const auto kept = std::copy_n(left.begin(), std::min(pieces, room), first);
+  if (pieces < room) {
+    intervals_.erase(kept, last);
+  } else if (pieces > room) {
+    intervals_.insert(last, left[1]);
   }
-  intervals_ = std::move(kept);
 }
 
 bool IntervalSet::contains(double t) const {
@@ -28,18 +39,6 @@ bool IntervalSet::contains(double t) const {
       std::upper_bound(intervals_.begin(), intervals_.end(), t,
                        [](double time, const Interval& interval) { return time < interval.begin_s; });
   return after != intervals_.begin() && std::prev(after)->contains(t);
-}
-
-void append_complement(std::vector<OpenInterval>& spans, std::vector<Interval>& out) {
-  std::sort(spans.begin(), spans.end(),
-            [](const OpenInterval& a, const OpenInterval& b) { return a.begin_s < b.begin_s; });
-  double free_from_s = 0;
-  for (const OpenInterval& span : spans) {
-    if (span.empty() || span.end_s <= free_from_s) continue;
-    if (span.begin_s >= free_from_s) out.push_back({free_from_s, span.begin_s});
-    free_from_s = span.end_s;
-  }
-  if (free_from_s < kForever) out.push_back({free_from_s, kForever});
 }
 
 }  // namespace sipplab

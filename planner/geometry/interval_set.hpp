@@ -19,8 +19,11 @@ class IntervalSet {
   ///  (2) otherwise contains(t) is unchanged, so end points survive;
   ///  (3) the stored intervals stay sorted and pairwise disjoint.
   ///
-  /// REQUIRES: begin_s <= end_s. O(size).
+  /// REQUIRES: begin_s <= end_s. O(log size + intervals behind the one removed).
   void remove_open(OpenInterval span);
+
+  /// Back to [0, infinity); keeps memory.
+  void reset() { intervals_.assign(1, Interval{}); }
 
   /// O(log size).
   bool contains(double t) const;
@@ -30,10 +33,5 @@ class IntervalSet {
  private:
   std::vector<Interval> intervals_;
 };
-
-/// The complement of a union, made in one sweep: appends to `out` what is left of
-/// [0, infinity) when all `spans` are removed, and leaves `spans` sorted. Agrees with
-/// IntervalSet::remove_open applied to each. O(n log n).
-void append_complement(std::vector<OpenInterval>& spans, std::vector<Interval>& out);
 
 }  // namespace sipplab

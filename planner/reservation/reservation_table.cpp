@@ -8,7 +8,6 @@
 
 #include "planner/core/assert.hpp"
 #include "planner/geometry/collision_interval.hpp"
-#include "planner/geometry/interval_set.hpp"
 
 namespace sipplab {
 namespace {
@@ -42,18 +41,16 @@ void ReservationTable::clear() {
     timeline.passing.clear();
     timeline.resting.clear();
     timeline.longest_s = 0;
+    timeline.safe_radius = -1;
   }
   used_cells_.clear();
-  // Intervals of cells that no disk came near lie in the arena as well.
-  for (Timeline& timeline : timelines_) timeline.intervals_radius = -1;
-  intervals_.clear();
   disks_.clear();
 }
 
 template <class Visitor>
 void ReservationTable::for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const {
   const double half = kHalfCell + disk.radius + max_radius_;
-  const Vec2 from = disk.way.from;
+  const Vec2 from = disk.from;
   const Vec2 step = disk.way.direction;
   const double length = disk.way.length;
   const auto first_within = [](double low) { return static_cast<std::int32_t>(std::floor(low)) + 1; };
@@ -84,7 +81,10 @@ ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
   for_each_cell_near(disk, [&](std::size_t cell, Span near) {
     Timeline& timeline = timelines_[cell];
     if (timeline.passing.empty() && timeline.resting.empty()) used_cells_.push_back(cell);
-    timeline.intervals_radius = -1;
+    if (timeline.safe_radius >= 0) {
+      timeline.safe.remove_open(
+          collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius));
+    }
     if (disk.end_s == kForever) {
       timeline.resting.push_back({disk.begin_s, kForever, id});
       return;
@@ -108,7 +108,7 @@ void ReservationTable::remove(DiskId id) {
   PLANNER_ASSERT(disk.at_rest());
   for_each_cell_near(disk, [&](std::size_t cell, Span) {
     Timeline& timeline = timelines_[cell];
-    timeline.intervals_radius = -1;
+    timeline.safe_radius = -1;
     std::vector<Presence>& presences = disk.end_s == kForever ? timeline.resting : timeline.passing;
     const auto place = std::find_if(presences.begin(), presences.end(),
                                     [id](const Presence& presence) { return presence.disk == id; });
@@ -126,71 +126,30 @@ void ReservationTable::add(const Trajectory& trajectory, double radius_cells) {
   add(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius_cells));
 }
 
-std::span<const SafeInterval> ReservationTable::safe_intervals(Cell cell, double radius_cells) {
+const std::vector<SafeInterval>& ReservationTable::safe_intervals(Cell cell, double radius_cells) {
   Timeline& timeline = timelines_[map_.index(cell)];
-  if (timeline.intervals_radius != radius_cells) {
-    collisions_.clear();
+  if (timeline.safe_radius != radius_cells) {
+    timeline.safe.reset();
+    timeline.safe_radius = radius_cells;
     for (const std::vector<Presence>* presences : {&timeline.passing, &timeline.resting}) {
       for (const Presence& presence : *presences) {
         const MovingDisk& disk = disks_[presence.disk];
-        const OpenInterval collision = collision_interval(centre(cell), disk, radius_cells + disk.radius);
-        if (!collision.empty()) collisions_.push_back(collision);
+        timeline.safe.remove_open(collision_interval(centre(cell), disk, radius_cells + disk.radius));
       }
     }
-    timeline.intervals_begin = static_cast<std::uint32_t>(intervals_.size());
-    append_complement(collisions_, intervals_);
-    timeline.intervals_end = static_cast<std::uint32_t>(intervals_.size());
-    timeline.intervals_radius = radius_cells;
   }
-  return std::span<const SafeInterval>(intervals_)
-      .subspan(timeline.intervals_begin, timeline.intervals_end - timeline.intervals_begin);
-}
-
-void ReservationTable::list_visits(const Move& move) {
-  visits_.clear();
-  const Vec2 step = move.way.direction;
-  Cell cell{static_cast<std::int32_t>(move.way.from.x), static_cast<std::int32_t>(move.way.from.y)};
-  const Cell last{static_cast<std::int32_t>(move.way.to.x), static_cast<std::int32_t>(move.way.to.y)};
-  const std::int32_t step_x = step.x > 0 ? 1 : -1;
-  const std::int32_t step_y = step.y > 0 ? 1 : -1;
-  // Seconds from one column (row) of cells to the next, and to the next crossing.
-  const double column_s = step.x != 0 ? 1 / (std::abs(step.x) * move.speed) : kForever;
-  const double row_s = step.y != 0 ? 1 / (std::abs(step.y) * move.speed) : kForever;
-  double next_column_s = column_s * kHalfCell;
-  double next_row_s = row_s * kHalfCell;
-  double enter_s = 0;
-  const std::int32_t columns = std::abs(last.x - cell.x);
-  const std::int32_t rows = std::abs(last.y - cell.y);
-  std::int32_t columns_done = 0;
-  std::int32_t rows_done = 0;
-  while (columns_done < columns || rows_done < rows) {
-    const double leave_s = std::min(next_column_s, next_row_s);
-    visits_.push_back({map_.index(cell), enter_s, leave_s});
-    // Where the way crosses a corner, within rounding, the cells beside it would be
-    // visited for no time at all; one of them is then listed with a span of length ~0.
-    if (rows_done == rows || (columns_done < columns && next_column_s <= next_row_s)) {
-      cell.x += step_x;
-      ++columns_done;
-      next_column_s = column_s * (kHalfCell + columns_done);
-    } else {
-      cell.y += step_y;
-      ++rows_done;
-      next_row_s = row_s * (kHalfCell + rows_done);
-    }
-    enter_s = leave_s;
-  }
-  visits_.push_back({map_.index(cell), enter_s, move.duration});
+  return timeline.safe.intervals();
 }
 
 double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
-                                        double departure_s) const {
+                                        double departure_s) {
   const double reach = radius_cells + disk.radius;
   if (!departure_overlaps(move, departure_s, disk, reach)) return departure_s;
   const OpenInterval unsafe = unsafe_departures(move, disk, reach);
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
-double ReservationTable::next_departure(const Move& move, const Visit& visit, double radius_cells,
+double ReservationTable::next_departure(const Move& move, const CellVisit& visit, double radius_cells,
                                         double departure_s) {
   const Timeline& timeline = timelines_[visit.cell];
   const double enter_s = departure_s + visit.enter_s;
@@ -215,21 +174,30 @@ double ReservationTable::next_departure(const Move& move, const Visit& visit, do
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
                                             double until_s) {
-  list_visits(move);
   double departure_s = from_s;
-  // Every visit must be seen clear at the same departure: go round until that many in
-  // a row were. Each jump ends where an unsafe interval ends, so none is jumped over.
+  // Every visit must be seen clear at the same departure: go round until all were, in a
+  // row. Each jump ends where an unsafe interval ends, so no safe departure is missed.
+  CellWalk walk(map_, move);
+  visits_.clear();
+  std::size_t at = 0;
   std::size_t clear_in_a_row = 0;
-  for (std::size_t at = 0; clear_in_a_row < visits_.size();) {
+  while (!walk.done() || clear_in_a_row < visits_.size()) {
+    if (at == visits_.size()) {
+      if (walk.done()) {
+        at = 0;
+      } else {
+        visits_.push_back(walk.next());
+      }
+    }
     const double later_s = next_departure(move, visits_[at], radius_cells, departure_s);
     if (later_s > departure_s) {
       departure_s = later_s;
-      if (departure_s > until_s) return departure_s;
+      if (departure_s > until_s || departure_s == kForever) return departure_s;
       clear_in_a_row = 0;
-      continue;
+    } else {
+      ++clear_in_a_row;
+      ++at;
     }
-    ++clear_in_a_row;
-    at = at + 1 == visits_.size() ? 0 : at + 1;
   }
   return departure_s;
 }
@@ -238,7 +206,7 @@ double ReservationTable::earliest_departure_plain(const Move& move, double radiu
                                                   double until_s) const {
   double departure_s = from_s;
   bool moved = true;
-  while (moved && departure_s <= until_s) {
+  while (moved && departure_s <= until_s && departure_s < kForever) {
     moved = false;
     for (const MovingDisk& disk : disks_) {
       const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);

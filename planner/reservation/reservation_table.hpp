@@ -7,9 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "planner/geometry/interval.hpp"
+#include "planner/geometry/interval_set.hpp"
 #include "planner/geometry/moving_disk.hpp"
 #include "planner/grid/grid_map.hpp"
+#include "planner/reservation/cell_walk.hpp"
 #include "planner/solution/trajectory.hpp"
 
 namespace sipplab {
@@ -38,15 +39,15 @@ class ReservationTable {
   void add(const Trajectory& trajectory, double radius_cells);
 
   /// Maximal closed spans in which a disk of this radius may stay at the cell, in
-  /// order. Valid until the next call of any function. O(1) while nothing near the
-  /// cell has changed, else O(n log n) in its timeline.
-  std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells);
+  /// order. Valid until a disk is added or removed. O(1) unless the radius is another than
+  /// at the last call for this cell or a disk near it was removed since.
+  const std::vector<SafeInterval>& safe_intervals(Cell cell, double radius_cells);
 
   /// The least departure t >= from_s for which the move overlaps no disk. Gives up as
   /// soon as every departure up to until_s is known to be unsafe and then returns
-  /// some lower bound on the least safe departure that is greater than until_s.
-  ///
-  /// REQUIRES: move.way joins two different cell centres inside the grid.
+  /// some lower bound on the least safe departure that is greater than until_s; kForever
+  /// where no departure from from_s on is safe.
+  /// REQUIRES: the move joins two different cell centres of the map.
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s);
 
   /// The same by looking at every disk: the plain twin, for tests and benchmarks.
@@ -66,36 +67,25 @@ class ReservationTable {
     std::vector<Presence> passing;  ///< sorted by enter_s; finite
     std::vector<Presence> resting;  ///< for ever from enter_s on
     double longest_s = 0;           ///< no passing presence is longer
-    // Safe intervals of the cell for one radius, while still true.
-    std::uint32_t intervals_begin = 0;
-    std::uint32_t intervals_end = 0;
-    double intervals_radius = -1;  ///< negative: to be computed
+    /// Safe intervals of the cell for robots of `safe_radius`, kept up to date as disks are
+    /// added; negative: to be computed when asked for.
+    IntervalSet safe;
+    double safe_radius = -1;
   };
-  /// A cell on the way of a move, with the span of seconds after departure in which
-  /// the mover's centre is in its square.
-  struct Visit {
-    std::size_t cell;
-    double enter_s;
-    double leave_s;
-  };
-
   template <class Visitor>
   void for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const;
-  void list_visits(const Move& move);
-  /// Where departing at `departure_s` overlaps a disk met during `visit`: the end of
+  /// Where departing at `departure_s` overlaps a disk met during the visit: the end of
   /// the unsafe departures around it. Else departure_s.
-  double next_departure(const Move& move, const Visit& visit, double radius_cells, double departure_s);
-  double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
-                        double departure_s) const;
+  double next_departure(const Move& move, const CellVisit& visit, double radius_cells, double departure_s);
+  static double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
+                               double departure_s);
 
   const GridMap& map_;
   double max_radius_;
   std::vector<MovingDisk> disks_;
   std::vector<Timeline> timelines_;
-  std::vector<std::size_t> used_cells_;   ///< timelines that are not empty
-  std::vector<SafeInterval> intervals_;   ///< arena of all timelines' safe intervals
-  std::vector<OpenInterval> collisions_;  ///< scratch
-  std::vector<Visit> visits_;             ///< scratch
+  std::vector<std::size_t> used_cells_;  ///< timelines that are not empty
+  std::vector<CellVisit> visits_;        ///< scratch
   std::uint64_t disks_examined_ = 0;
 };
 

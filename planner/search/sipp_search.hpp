@@ -17,9 +17,14 @@ struct SippOptions {
   bool any_angle = true;
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
-  /// Try the straight way to the goal from each expanded node; when it arrives as early
-  /// as the node's f promises, nothing can be better and the search ends. Any-angle only.
+  /// Try the straight way to the goal from each expanded node, departing at once: it
+  /// arrives as early as the node's f promises, so nothing can be better and the search
+  /// ends. Any-angle only.
   bool direct_shot = true;
+  /// Queue successors with a lower bound on their arrival and compute the arrival when
+  /// they come up; off: compute it for each successor at once, the plain twin. The two
+  /// break ties differently.
+  bool lazy_evaluation = true;
   /// Ask the reservation table by its indexed search; off: by its plain twin.
   bool indexed_reservations = true;
 };
@@ -47,16 +52,23 @@ class SippSearch final : public SingleAgentPlanner {
   void begin(AgentIndex agent, ReservationTable& reservations);
   CellNodes nodes_of(Cell cell);
   double lower_bound_s(Cell from, Cell to) const;
+  double travel_s(Cell from, Cell to) const;
   /// A lower bound on the arrival at the goal by way of the node.
   double f(const SippNode& node) const;
   bool is_goal(const SippNode& node) const;
 
   void expand(NodeId id, SearchStatistics& statistics);
-  /// Lowers the arrivals at the nodes of `cell` that are reached earlier straight from
-  /// `from` than by what is known.
-  void relax(NodeId from, Cell cell, SearchStatistics& statistics);
-  /// Whether the goal is reached straight from the node exactly at its f; then the goal's
-  /// node says how.
+  /// Promises the nodes of `cell`, a neighbour of `from`, that may be reached from it, or
+  /// straight from `parent` (kNoNode: there is no such way), earlier than known so far.
+  void offer(NodeId from, NodeId parent, Cell cell, SearchStatistics& statistics);
+  /// Computes what a promise is worth. Whether it lowered the arrival at the node.
+  bool relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics);
+  /// Which way to keep of two that arrive at the same time.
+  enum class Tie { kKeep, kReplace };
+  /// Lowers the arrival at node `id` to that of the straight way from `from`, if earlier.
+  bool arrive(NodeId from, NodeId id, Tie tie);
+  /// Whether the straight way to the goal is safe when the node is left at once; then the
+  /// goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
   double earliest_departure(const Move& move, double from_s, double until_s);
   Trajectory reconstruct(NodeId goal) const;
@@ -70,7 +82,6 @@ class SippSearch final : public SingleAgentPlanner {
   const Agent* agent_ = nullptr;
   const LineOfSight* line_of_sight_ = nullptr;
   ReservationTable* reservations_ = nullptr;
-  double goal_from_s_ = 0;  ///< the goal is free for ever from here on
   std::uint32_t search_ = 0;
   std::vector<CellNodes> cell_nodes_;
   std::vector<SippNode> nodes_;
