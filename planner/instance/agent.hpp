@@ -15,6 +15,7 @@ inline constexpr double kDefaultRotationSpeed = 1.0;
 
 /// Limits of what an instance may ask for. They keep times and coordinates in
 /// the range for which the tolerances were chosen.
+inline constexpr double kMinRadiusCells = 1e-3;
 inline constexpr double kMaxRadiusCells = 64;
 inline constexpr double kMinSpeedCellsPerS = 1e-3;
 inline constexpr double kMaxSpeedCellsPerS = 1e3;

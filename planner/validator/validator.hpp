@@ -16,16 +16,17 @@
 namespace sipplab {
 
 enum class ViolationKind {
-  kAgentCount,       ///< not one trajectory for each agent
-  kNotFinite,        ///< a time that is not a finite number, or negative
-  kEndpoint,         ///< does not begin at the start or does not end at the goal
-  kDiscontinuity,    ///< a gap in time or place between two motions
-  kSpeed,            ///< a motion that does not take length / speed
-  kStaticObstacle,   ///< the body overlaps a blocked cell or leaves the grid
-  kAgentCollision,   ///< two robots closer than the sum of their radii
+  kAgentCount,         ///< not one trajectory for each agent
+  kNotFinite,          ///< a time that is not a finite number, or negative
+  kEndpoint,           ///< does not begin at the start or does not end at the goal
+  kDiscontinuity,      ///< a gap in time or place between two motions
+  kSpeed,              ///< a motion that does not take length / speed
+  kStaticObstacle,     ///< the body overlaps a blocked cell or leaves the grid
+  kAgentCollision,     ///< two robots closer than the sum of their radii
   kObstacleCollision,  ///< a robot and a dynamic obstacle likewise
   kStartSafeInterval,  ///< a robot too close to the start of a lower-priority robot in [0, ssi]
 };
+/// "agent-collision" and so on, in lower case with hyphens.
 std::string_view name(ViolationKind kind);
 
 struct Violation {
@@ -43,15 +44,18 @@ struct ValidationOptions {
   /// priority order; 0 or an empty order: nothing to check.
   double ssi_s = 0;
   std::vector<AgentIndex> order;
-  /// Stop collecting after this many violations.
+  /// Stop collecting after this many violations; 0 counts as 1.
   std::size_t max_violations = 100;
 };
 
 struct ValidationReport {
   std::vector<Violation> violations;
-  /// Least distance of any two bodies (robots and dynamic obstacles) minus the sum
-  /// of their radii, in cells: negative means overlap, however small. Infinity
-  /// where there are no two bodies.
+  /// Least distance of a robot and any other body (robot or dynamic obstacle) minus
+  /// the sum of their radii, in cells: negative means overlap, however small. Exact
+  /// below kClearanceReachCells (1); where all are farther apart than that, that
+  /// value. Infinity where there is nothing to compare: no two bodies, or a solution
+  /// without usable times. Where max_violations ended the comparison early, that of
+  /// the pairs compared so far.
   double min_clearance_cells = std::numeric_limits<double>::infinity();
 
   bool valid() const { return violations.empty(); }
@@ -61,7 +65,11 @@ struct ValidationReport {
 /// clearance, separation of every pair for all time, start-safe intervals. Overlap
 /// up to kValidatorToleranceCells passes. Never asserts on a bad solution.
 /// Pairs are found by sweeping a uniform grid over (place, time); each candidate
-/// pair of motions is decided in closed form.
-ValidationReport validate(const Instance& instance, const Solution& solution, const ValidationOptions& options = {});
+/// pair of motions is decided in closed form. Violations come in this order: single
+/// trajectories by agent, collisions by time, start-safe intervals by agent.
+/// REQUIRES: !find_error(instance). (With other instances it does not crash, but the
+/// verdict means little.)
+ValidationReport validate(const Instance& instance, const Solution& solution,
+                          const ValidationOptions& options = {});
 
 }  // namespace sipplab

@@ -1,0 +1,306 @@
+// sipplab bench: a density sweep into the history.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/cli/benchmark_flags.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/suites.hpp"
+#include "bench/sweep/expand.hpp"
+#include "bench/sweep/interrupt.hpp"
+#include "bench/sweep/reporters.hpp"
+#include "bench/sweep/run_info.hpp"
+#include "bench/sweep/sweep.hpp"
+#include "db/database.hpp"
+#include "db/recorder.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+constexpr int kSignalExitBase = 128;  // as shells do
+
+struct BenchArguments {
+  std::string suite = "density";
+  std::vector<std::string> folders;
+  std::optional<std::string> map;
+  std::vector<std::size_t> robots;
+  std::vector<std::string> ssi;
+  std::vector<std::string> reschedule;
+  std::vector<std::string> order;
+  std::vector<int> connectedness;
+  std::optional<bool> any_angle;
+  std::optional<std::uint64_t> count;
+  std::optional<std::string> time_limit;
+  std::optional<std::uint64_t> max_expansions;
+  std::optional<std::uint64_t> max_restarts;
+  std::uint64_t seed = 1;
+  std::int64_t repetitions = 1;
+  bool resume = false;
+  std::optional<std::string> database;
+  bool json = false;
+  Invocation invocation;
+};
+
+bench::SweepRequest request_of(const BenchArguments& arguments) {
+  bench::SweepRequest request;
+  request.suite = arguments.folders.empty() ? bench::find_suite(arguments.suite) : nullptr;
+  request.folders = arguments.folders;
+  request.map = arguments.map;
+  request.robots = arguments.robots;
+  for (const std::string& text : arguments.ssi) request.ssi_s.push_back(parse_ssi(text).value_or(0));
+  for (const std::string& text : arguments.reschedule) {
+    request.reschedules.push_back(parse_rescheduling(text).value_or(Rescheduling::kNone));
+  }
+  for (const std::string& text : arguments.order) {
+    request.orders.push_back(parse_initial_order(text).value_or(InitialOrder::kShortestFirst));
+  }
+  request.connectedness = arguments.connectedness;
+  request.any_angle = arguments.any_angle;
+  request.count = arguments.count;
+  if (arguments.time_limit) request.time_limit_s = parse_time_limit_s(*arguments.time_limit);
+  request.max_expansions = arguments.max_expansions;
+  request.max_restarts = arguments.max_restarts;
+  request.seed = arguments.seed;
+  return request;
+}
+
+/// Leaves the cases for which `keep` says so.
+template <class Keep>
+void keep_cases(bench::ExpandedSweep& sweep, Keep keep) {
+  std::vector<bench::NamedCase> kept;
+  for (bench::NamedCase& named : sweep.cases) {
+    if (keep(named)) kept.push_back(std::move(named));
+  }
+  sweep.cases = std::move(kept);
+}
+
+/// Name of the benchmark as Google Benchmark completes it.
+std::string full_name(const bench::ExpandedSweep& sweep, const bench::NamedCase& named) {
+  return fmt::format("{}/iterations:{}/manual_time", named.name,
+                     sweep.sets[named.parameters.set].instances.size());
+}
+
+/// What must agree for a run to be taken up again: every case by name, and what its
+/// name leaves out.
+db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep& sweep) {
+  db::RunInfo info;
+  info.suite = arguments.folders.empty() ? arguments.suite : "instances";
+  info.command_line = arguments.invocation.command_line;
+  std::string cases;
+  for (const bench::NamedCase& named : sweep.cases) cases += full_name(sweep, named) + "\n";
+  const PlannerOptions& options = sweep.cases.front().parameters.options;
+  const auto same_limit = [&options](const bench::NamedCase& named) {
+    return named.parameters.options.time_limit_s == options.time_limit_s;
+  };
+  info.time_limit_s = std::all_of(sweep.cases.begin(), sweep.cases.end(), same_limit) ? options.time_limit_s
+                                                                                      : db::kNoTimeLimit;
+  info.options = fmt::format(
+      "seed={} repetitions={} time_limit={} max_expansions={} max_restarts={} cases={}:{}", arguments.seed,
+      arguments.repetitions, format_ssi(options.time_limit_s), options.max_expansions, options.max_restarts,
+      sweep.cases.size(), bench::text_digest(cases));
+  info.seed = arguments.seed;
+  const bench::SourceInfo source = bench::source_info();
+  info.commit = source.commit;
+  info.branch = source.branch;
+  info.machine = bench::machine_info();
+  info.build = bench::build_info(source);
+  return info;
+}
+
+/// "sipplab show 1a2b3c4d": what to type next, for this program and history.
+std::string next_commands(const BenchArguments& arguments, const std::string& run) {
+  const std::string database = arguments.database ? " --db " + *arguments.database : "";
+  constexpr std::size_t kShortUuid = 8;
+  return fmt::format("next: {0} show{1} {2}, or {0} runs{1}", arguments.invocation.program, database,
+                     run.substr(0, kShortUuid));
+}
+
+struct Resumption {
+  std::optional<std::string> run;
+  std::vector<db::CaseInfo> finished;
+};
+
+db::Result<Resumption> find_resumption(db::Database& database, const db::RunInfo& info) {
+  Resumption resumption;
+  const auto found = db::find_resumable_run(database, info);
+  if (!found) return Unexpected{found.error()};
+  if (!*found) return resumption;
+  resumption.run = (*found)->uuid;
+  auto finished = db::finished_cases(database, *resumption.run);
+  if (!finished) return Unexpected{finished.error()};
+  resumption.finished = std::move(*finished);
+  return resumption;
+}
+
+int report(const BenchArguments& arguments, const BenchmarkFlags& flags, bench::Sweep& sweep,
+           const std::string& suite, const std::string& database) {
+  const auto& entries = sweep.entries();
+  const bool finished =
+      std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished; });
+  if (arguments.json) {
+    print(bench::result_json(entries, suite, sweep.run_uuid(), database, finished));
+  } else if (flags.format.empty()) {
+    print(bench::result_table(entries));
+  }
+  if (sweep.error()) return fail(*sweep.error());
+  diagnose(fmt::format("recorded in {} as run {}", database, sweep.run_uuid()));
+  if (!sweep.first_invalid().empty()) {
+    return fail(kInternalError, "sipplab: internal error: invalid plan: " + sweep.first_invalid());
+  }
+  if (!finished) {
+    return fail(kSignalExitBase + bench::interrupted_by(),
+                "stopped before its end; the same command with --resume does the rest");
+  }
+  diagnose(next_commands(arguments, sweep.run_uuid()));
+  return kSuccess;
+}
+
+/// Opens the history, runs the cases that are to be run, and reports.
+int run_sweep(const BenchArguments& arguments, const BenchmarkFlags& flags, bench::ExpandedSweep cases) {
+  const std::filesystem::path path = db::database_path(arguments.database);
+  const db::RunInfo info = run_info(arguments, cases);
+  auto database = db::Database::open(path);
+  if (!database) return fail(database.error());
+
+  Resumption resumption;
+  if (arguments.resume) {
+    db::Result<Resumption> found = find_resumption(*database, info);
+    if (!found) return fail(found.error());
+    resumption = std::move(*found);
+    const std::size_t all = cases.cases.size();
+    keep_cases(cases, [&resumption](const bench::NamedCase& named) {
+      const auto& finished = resumption.finished;
+      return std::find(finished.begin(), finished.end(), bench::case_row(named.parameters)) == finished.end();
+    });
+    diagnose(resumption.run ? fmt::format("resuming run {}: {} of {} cases are there", *resumption.run,
+                                          all - cases.cases.size(), all)
+                            : "no unfinished run of this command, build and machine: starting a new one");
+  }
+  const std::string reason = bench::unfit_for_timing();
+  if (!reason.empty()) diagnose("WARNING: " + reason + " in this build: its times are not worth comparing");
+
+  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(*database), info, resumption.run),
+                     arguments.repetitions, stderr_is_terminal());
+  sweep.register_benchmarks(flags.format == "csv");
+  if (sweep.entries().empty()) {
+    sweep.begin();
+  } else {
+    bench::catch_interrupts();
+    benchmark::BenchmarkReporter* shown =
+        flags.format.empty() ? nullptr : benchmark::CreateDefaultDisplayReporter();
+    bench::RecordingReporter reporter(sweep, shown);
+    benchmark::RunSpecifiedBenchmarks(&reporter, std::string("."));
+  }
+  sweep.end();
+  return report(arguments, flags, sweep, info.suite, path.string());
+}
+
+int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_flags) {
+  BenchArguments arguments = given;
+  if (arguments.repetitions > 1) {
+    benchmark_flags.push_back(fmt::format("--benchmark_repetitions={}", arguments.repetitions));
+  }
+  const Expected<BenchmarkFlags, std::string> flags = initialize_benchmark(benchmark_flags);
+  if (!flags) return fail(kBadUsage, "sipplab: " + flags.error());
+  arguments.repetitions = flags->repetitions;
+  if (arguments.json && !flags->format.empty()) {
+    return fail(kBadUsage, "sipplab: --json and --benchmark_format both claim stdout, expected one of them");
+  }
+
+  Expected<bench::ExpandedSweep, std::string> cases = bench::expand(request_of(arguments));
+  if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
+  std::vector<std::string> names;
+  for (const bench::NamedCase& named : cases->cases) names.push_back(full_name(*cases, named));
+  const Expected<std::vector<bool>, std::string> matches = filter_matches(flags->filter, names);
+  if (!matches) return fail(kBadUsage, "sipplab: " + matches.error());
+  std::size_t position = 0;
+  keep_cases(*cases, [&matches, &position](const bench::NamedCase&) { return (*matches)[position++]; });
+  if (cases->cases.empty()) {
+    return fail(kBadUsage, "sipplab: --benchmark_filter: no case matches " + in_quotes(flags->filter));
+  }
+  if (flags->list_tests) {
+    for (const bench::NamedCase& named : cases->cases) print(full_name(*cases, named) + "\n");
+    return kSuccess;
+  }
+  return run_sweep(arguments, *flags, std::move(*cases));
+}
+
+std::string suite_names() {
+  std::string text;
+  for (const bench::Suite& suite : bench::suites()) {
+    text += (text.empty() ? "" : "; ") + suite.name + ": " + suite.purpose;
+  }
+  return text;
+}
+
+void add_flags(CLI::App& command, BenchArguments& arguments) {
+  CLI::Option* suite = command.add_option("--suite", arguments.suite, suite_names())
+                           ->check([](const std::string& text) {
+                             return bench::find_suite(text) != nullptr
+                                        ? std::string()
+                                        : in_quotes(text) + ", expected smoke, density or paper";
+                           })
+                           ->capture_default_str();
+  CLI::Option* folders =
+      command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
+          ->excludes(suite)
+          ->type_name("DIR");
+  command.add_option("--map", arguments.map, "instead of the suite's maps; as `sipplab generate` takes it")
+      ->excludes(folders);
+  command.add_option("--robots", arguments.robots, "instead of the suite's numbers: 16,32,64")
+      ->delimiter(',');
+  command.add_option("--ssi", arguments.ssi, "instead of the suite's start-safe intervals: 0,2.5,inf")
+      ->delimiter(',')
+      ->check(check_ssi);
+  command.add_option("--reschedule", arguments.reschedule, "none,deterministic,random")
+      ->delimiter(',')
+      ->check(check_reschedule);
+  command.add_option("--order", arguments.order, "fifo,shortest,longest,random")
+      ->delimiter(',')
+      ->check(check_order);
+  command.add_option("--connectedness", arguments.connectedness, "2^k neighbours: 2,3")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 5));
+  add_any_angle_flag(command, arguments.any_angle);
+  command.add_option("--count", arguments.count, "instances per case")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
+  command.add_option("--time-limit", arguments.time_limit, "wall-clock seconds per instance, or inf")
+      ->check(check_time_limit);
+  command.add_option("--max-expansions", arguments.max_expansions, "nodes expanded per instance");
+  command.add_option("--max-restarts", arguments.max_restarts, "tries after the first");
+  command.add_option("--seed", arguments.seed, "of instances and random orders")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
+      ->capture_default_str();
+  command.add_option("--repetitions", arguments.repetitions, "the same as --benchmark_repetitions")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
+  command.add_flag("--resume", arguments.resume, "do only what is missing of a run that was stopped");
+  add_database_flag(command, arguments.database);
+  command.add_flag("--json", arguments.json, "print one JSON document");
+}
+
+}  // namespace
+
+Command add_bench_command(CLI::App& program, const Invocation& invocation) {
+  auto arguments = std::make_shared<BenchArguments>();
+  arguments->invocation = invocation;
+  CLI::App* command = program.add_subcommand("bench", "run a density sweep and record it in the history");
+  command->allow_extras();
+  command->footer(
+      "All --benchmark_* flags of Google Benchmark work as well: --benchmark_filter=REGEX,\n"
+      "--benchmark_list_tests, --benchmark_format=json, --benchmark_out=FILE, ...");
+  add_flags(*command, *arguments);
+  return {command, [arguments, command] { return run_bench(*arguments, command->remaining()); }};
+}
+
+}  // namespace sipplab::cli

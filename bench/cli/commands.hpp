@@ -1,0 +1,30 @@
+// The commands of `sipplab`, one file each. Every function adds one subcommand to the
+// program and returns what runs it once the arguments are parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace sipplab::cli {
+
+struct Command {
+  CLI::App* arguments = nullptr;
+  std::function<int()> run;  ///< returns the exit code
+};
+
+/// How the program was called.
+struct Invocation {
+  std::string program;       ///< as a user would type it from here
+  std::string command_line;  ///< "sipplab bench --suite smoke"
+};
+
+Command add_plan_command(CLI::App& program);
+Command add_validate_command(CLI::App& program);
+Command add_generate_command(CLI::App& program);
+Command add_bench_command(CLI::App& program, const Invocation& invocation);
+Command add_runs_command(CLI::App& program);
+Command add_show_command(CLI::App& program);
+Command add_sql_command(CLI::App& program);
+
+}  // namespace sipplab::cli

@@ -1,0 +1,61 @@
+#include "bench/cli/console.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <string>
+
+namespace sipplab::cli {
+namespace {
+
+bool stdout_failed = false;
+int stdout_errno = 0;
+
+void remember_failure() {
+  if (!stdout_failed) stdout_errno = errno;
+  stdout_failed = true;
+}
+
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+}  // namespace
+
+void print(std::string_view text) {
+  if (stdout_failed) return;
+  std::cout.flush();  // benchmark reporters write there
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) remember_failure();
+}
+
+int close_stdout(int code) {
+  errno = 0;
+  std::cout.flush();
+  if (!std::cout) remember_failure();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) remember_failure();
+  if (!stdout_failed) return code;
+  const std::string reason = stdout_errno != 0 ? std::strerror(stdout_errno) : "write error";
+  return fail(kBadUsage, "sipplab: cannot write to standard output: " + reason);
+}
+
+void diagnose(std::string_view line) {
+  const std::string text = on_one_line(line) + "\n";
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+int fail(int code, std::string_view line) {
+  diagnose(line);
+  return code;
+}
+
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+}  // namespace sipplab::cli

@@ -1,0 +1,34 @@
+// What the command line says, and with which code it ends. Answers go to stdout,
+// everything else to stderr.
+#pragma once
+
+#include <string_view>
+
+namespace sipplab::cli {
+
+/// Exit codes: scripts depend on them.
+enum ExitCode : int {
+  kSuccess = 0,
+  kNegativeVerdict = 1,  ///< unsolved, invalid, a regression, a finding
+  kBadUsage = 2,         ///< bad usage or input, and output that cannot be written
+  kInconclusive = 3,
+  kNothingComparable = 4,
+  kInternalError = 70,
+};
+
+/// Writes to stdout; what cannot be written is noticed by close_stdout().
+void print(std::string_view text);
+
+/// Flushes stdout, standard streams included. Returns `code`, or kBadUsage with one
+/// line on stderr where the reader has gone or the disk is full.
+int close_stdout(int code);
+
+/// One line on stderr as it is; line breaks in it become blanks.
+void diagnose(std::string_view line);
+
+/// diagnose(line), and the code to end with.
+int fail(int code, std::string_view line);
+
+bool stderr_is_terminal();
+
+}  // namespace sipplab::cli

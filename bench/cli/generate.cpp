@@ -1,0 +1,132 @@
+// sipplab generate: seeded instances as files. Instance K of a seed is the same,
+// whatever the count.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "planner/generator/generator.hpp"
+#include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
+#include "planner/io/write_instance.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+/// More files than this in one folder are a slip of the finger.
+constexpr std::uint64_t kMaxInstances = 100'000;
+
+struct GenerateArguments {
+  std::string map = "warehouse";
+  std::uint64_t agents = 0;
+  std::uint64_t count = 1;
+  std::uint64_t seed = 1;
+  std::optional<std::string> radius;
+  std::optional<std::string> speed;
+  std::string format = "xml";
+  std::string folder;
+  bool json = false;
+};
+
+struct File {
+  std::string path;
+  std::string text;
+};
+
+std::vector<File> files_of(const GenerateArguments& arguments, const Instance& instance,
+                           std::uint64_t index) {
+  const std::filesystem::path stem = std::filesystem::path(arguments.folder) / std::to_string(index);
+  if (arguments.format == "xml") return {{stem.string() + ".xml", write_instance_xml(instance)}};
+  return {{stem.string() + ".map", write_movingai_map(instance.map)},
+          {stem.string() + ".scen", write_movingai_scen(instance, std::to_string(index) + ".map")}};
+}
+
+GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint64_t index) {
+  GeneratorOptions options;
+  options.agents = arguments.agents;
+  options.seed = arguments.seed;
+  options.index = index;
+  if (arguments.radius) options.radius_cells = parse_real(*arguments.radius).value_or(kDefaultRadiusCells);
+  if (arguments.speed)
+    options.speed_cells_per_s = parse_real(*arguments.speed).value_or(kDefaultSpeedCellsPerS);
+  return options;
+}
+
+int run_generate(const GenerateArguments& arguments) {
+  const Expected<MapSpec, std::string> spec = parse_map_spec(arguments.map);
+  if (!spec) return fail(kBadUsage, "sipplab: " + spec.error());
+
+  // Once without writing, so that an impossible wish leaves no files behind.
+  for (std::uint64_t index = 0; index < arguments.count; ++index) {
+    const auto instance = generate_instance(*spec, generator_options(arguments, index));
+    if (!instance) return fail(kBadUsage, "sipplab: " + instance.error());
+  }
+
+  std::error_code error;
+  std::filesystem::create_directories(arguments.folder, error);
+  if (error)
+    return fail(kBadUsage, "sipplab: cannot make folder " + arguments.folder + ": " + error.message());
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  for (std::uint64_t index = 0; index < arguments.count; ++index) {
+    const auto instance = generate_instance(*spec, generator_options(arguments, index));
+    if (!instance) return fail(kInternalError, "sipplab: internal error: " + instance.error());
+    for (const File& file : files_of(arguments, *instance, index)) {
+      if (const auto failure = write_file(file.path, file.text)) return fail(kBadUsage, failure->message());
+      written.push_back(file.path);
+    }
+  }
+  if (arguments.json) {
+    nlohmann::ordered_json json;
+    json["map"] = arguments.map;
+    json["agents"] = arguments.agents;
+    json["seed"] = arguments.seed;
+    json["files"] = std::move(written);
+    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  } else {
+    print(fmt::format("{} instances of {} robots on {} in {}\nsweep them: sipplab bench --instances {}\n",
+                      arguments.count, arguments.agents, arguments.map, arguments.folder, arguments.folder));
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_generate_command(CLI::App& program) {
+  auto arguments = std::make_shared<GenerateArguments>();
+  CLI::App* command = program.add_subcommand("generate", "make seeded instances");
+  command->add_option("--map", arguments->map, "empty:WxH, random:WxH:DENSITY, warehouse, or a map file")
+      ->capture_default_str()
+      ->type_name("MAP");
+  command->add_option("--agents", arguments->agents, "robots in each instance")->required();
+  command->add_option("--count", arguments->count, "how many instances")
+      ->check(CLI::Range(std::uint64_t{1}, kMaxInstances))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of maps, starts and goals")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
+      ->capture_default_str();
+  command->add_option("--radius", arguments->radius, "cells; default 0.5")
+      ->check(check_positive_real)
+      ->type_name("R");
+  command->add_option("--speed", arguments->speed, "cells per second; default 1")
+      ->check(check_positive_real)
+      ->type_name("V");
+  command->add_option("--format", arguments->format, "xml, or movingai (.map and .scen)")
+      ->check(CLI::IsMember({"xml", "movingai"}))
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->folder, "folder to write to, made if missing")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--json", arguments->json, "print one JSON document");
+  return {command, [arguments] { return run_generate(*arguments); }};
+}
+
+}  // namespace sipplab::cli

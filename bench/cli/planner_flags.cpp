@@ -1,0 +1,115 @@
+#include "bench/cli/planner_flags.hpp"
+
+#include <limits>
+
+#include "bench/cli/console.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+constexpr const char* kRescheduleNames = "none, deterministic or random";
+constexpr const char* kOrderNames = "fifo, shortest, longest or random";
+constexpr int kMinConnectedness = 2;
+constexpr int kMaxConnectedness = 5;
+
+std::string expected(const std::string& text, const std::string& what) {
+  return in_quotes(text) + ", expected " + what;
+}
+
+}  // namespace
+
+std::string check_ssi(const std::string& text) {
+  return parse_ssi(text) ? "" : expected(text, "a number of seconds >= 0, or inf");
+}
+
+std::string check_reschedule(const std::string& text) {
+  return parse_rescheduling(text) ? "" : expected(text, kRescheduleNames);
+}
+
+std::string check_order(const std::string& text) {
+  return parse_initial_order(text) ? "" : expected(text, kOrderNames);
+}
+
+double parse_time_limit_s(std::string_view text) {
+  if (text == "inf" || text == "infinity") return std::numeric_limits<double>::infinity();
+  return parse_real(text).value_or(0);
+}
+
+std::string check_time_limit(const std::string& text) {
+  return parse_time_limit_s(text) > 0 ? "" : expected(text, "a number of seconds > 0, or inf");
+}
+
+std::string check_positive_real(const std::string& text) {
+  return parse_real(text).value_or(0) > 0 ? "" : expected(text, "a number > 0");
+}
+
+void InstanceFlags::add_to(CLI::App& command) {
+  command.add_option("--instance", files_.instance,
+                     "instance in one file (XML, or a .scen that names its map)");
+  command.add_option("--map", files_.map, "map (XML or MovingAI .map)");
+  command.add_option("--task", files_.task, "agents (XML or MovingAI .scen)");
+  command.add_option("--config", files_.config, "planner options (XML); flags here go before them");
+  command.add_option("--obstacles", files_.obstacles, "dynamic obstacles (XML)");
+  command.add_option("--agents", files_.agents, "only the first N agents");
+  command.add_flag("--allow-unreachable", files_.allow_unreachable,
+                   "take instances in which a goal cannot be reached");
+}
+
+Expected<LoadedInstance, std::string> InstanceFlags::load() const {
+  if (!files_.instance && !files_.task) {
+    return Unexpected{
+        std::string("sipplab: no instance given, expected --instance FILE, or --map FILE --task FILE")};
+  }
+  Input<LoadedInstance> loaded = load_instance(files_);
+  if (!loaded) return Unexpected{loaded.error().message()};
+  for (const std::string& warning : loaded->warnings) diagnose("warning: " + warning);
+  return std::move(*loaded);
+}
+
+void PlannerFlags::add_to(CLI::App& command) {
+  command.add_option("--ssi", ssi_, "start-safe interval in seconds, or inf")
+      ->check(check_ssi)
+      ->type_name("K");
+  command.add_option("--reschedule", reschedule_, kRescheduleNames)
+      ->check(check_reschedule)
+      ->type_name("RULE");
+  command.add_option("--order", order_, "first priority order: " + std::string(kOrderNames))
+      ->check(check_order)
+      ->type_name("ORDER");
+  command.add_option("--connectedness", connectedness_, "2^k neighbours")
+      ->check(CLI::Range(kMinConnectedness, kMaxConnectedness))
+      ->type_name("2..5");
+  add_any_angle_flag(command, any_angle_);
+  command.add_option("--seed", seed_, "of random orders")->check(CLI::Range(std::uint64_t{0}, kMaxSeed));
+  command.add_option("--time-limit", time_limit_, "wall-clock seconds, or inf")
+      ->check(check_time_limit)
+      ->type_name("S");
+  command.add_option("--max-expansions", max_expansions_, "nodes expanded, over all tries");
+  command.add_option("--max-restarts", max_restarts_, "tries after the first");
+}
+
+void PlannerFlags::apply_to(PlannerOptions& options) const {
+  if (ssi_) options.ssi_s = parse_ssi(*ssi_).value_or(options.ssi_s);
+  if (reschedule_) options.rescheduling = parse_rescheduling(*reschedule_).value_or(options.rescheduling);
+  if (order_) options.order = parse_initial_order(*order_).value_or(options.order);
+  if (connectedness_) options.connectedness = *connectedness_;
+  if (any_angle_) options.any_angle = *any_angle_;
+  if (seed_) options.seed = *seed_;
+  if (time_limit_) options.time_limit_s = parse_time_limit_s(*time_limit_);
+  if (max_expansions_) options.max_expansions = *max_expansions_;
+  if (max_restarts_) options.max_restarts = *max_restarts_;
+}
+
+void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
+  // By way of a function: a flag bound to an optional would count from 0, which is false.
+  command.add_flag_function(
+      "--any-angle,!--no-any-angle", [&any_angle](std::int64_t count) { any_angle = count > 0; },
+      "straight moves between any two cells");
+}
+
+void add_database_flag(CLI::App& command, std::optional<std::string>& path) {
+  command.add_option("--db", path, "history file; default $SIPPLAB_DB, else ./sipplab.db")->type_name("FILE");
+}
+
+}  // namespace sipplab::cli

@@ -1,0 +1,70 @@
+// Flags that several commands share: which instance, which planner options, and
+// where the history is.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/io/load_instance.hpp"
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::cli {
+
+/// --instance, --map, --task, --config, --obstacles, --agents, --allow-unreachable.
+class InstanceFlags {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Reads the files, warnings to stderr. Errors are one line.
+  Expected<LoadedInstance, std::string> load() const;
+
+ private:
+  InstanceFiles files_;
+};
+
+/// --ssi, --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
+/// --max-expansions, --max-restarts: each empty unless the user gave it.
+class PlannerFlags {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Overwrites the options that the user gave.
+  void apply_to(PlannerOptions& options) const;
+
+ private:
+  std::optional<std::string> ssi_;
+  std::optional<std::string> reschedule_;
+  std::optional<std::string> order_;
+  std::optional<int> connectedness_;
+  std::optional<bool> any_angle_;
+  std::optional<std::uint64_t> seed_;
+  std::optional<std::string> time_limit_;
+  std::optional<std::uint64_t> max_expansions_;
+  std::optional<std::uint64_t> max_restarts_;
+};
+
+/// Largest seed: the history keeps seeds as signed 64-bit integers.
+inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
+
+/// Checks for CLI11: empty when the text is right, else what was expected.
+std::string check_ssi(const std::string& text);
+std::string check_reschedule(const std::string& text);
+std::string check_order(const std::string& text);
+/// A number of seconds > 0, or "inf".
+std::string check_time_limit(const std::string& text);
+std::string check_positive_real(const std::string& text);
+
+/// REQUIRES: check_time_limit(text) is empty.
+double parse_time_limit_s(std::string_view text);
+
+/// --any-angle and --no-any-angle; empty unless the user gave one of them.
+void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
+
+/// --db, with its help text.
+void add_database_flag(CLI::App& command, std::optional<std::string>& path);
+
+}  // namespace sipplab::cli

@@ -1,0 +1,69 @@
+// sipplab runs: what the history holds, newest first; and leaving a run out of
+// comparisons, with a reason.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "db/database.hpp"
+#include "db/queries.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct RunsArguments {
+  HistoryFlags history;
+  std::optional<std::string> suite;
+  std::size_t limit = 20;
+  bool all = false;
+  std::optional<std::string> exclude;
+  std::optional<std::string> reason;
+  std::optional<std::string> include;
+};
+
+int change_exclusion(const RunsArguments& arguments) {
+  auto database = db::Database::open(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto done = arguments.exclude ? db::exclude_run(*database, *arguments.exclude, *arguments.reason)
+                                      : db::include_run(*database, *arguments.include);
+  if (!done) return fail(done.error());
+  return kSuccess;
+}
+
+int run_runs(const RunsArguments& arguments) {
+  if (arguments.exclude || arguments.include) return change_exclusion(arguments);
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  db::RunFilter filter;
+  filter.suite = arguments.suite;
+  filter.limit = arguments.all ? 0 : arguments.limit;
+  filter.include_excluded = arguments.all;
+  const auto runs = db::list_runs(*database, filter);
+  if (!runs) return fail(runs.error());
+  print(db::format_runs(*runs, arguments.history.output_format()));
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_runs_command(CLI::App& program) {
+  auto arguments = std::make_shared<RunsArguments>();
+  CLI::App* command = program.add_subcommand("runs", "list the runs of the history, newest first");
+  arguments->history.add_to(*command);
+  command->add_option("--suite", arguments->suite, "only runs of this suite");
+  command->add_option("--limit", arguments->limit, "newest runs shown")->capture_default_str();
+  command->add_flag("--all", arguments->all, "all runs, excluded ones too");
+  CLI::Option* exclude =
+      command->add_option("--exclude", arguments->exclude, "leave RUN out of comparisons")->type_name("RUN");
+  CLI::Option* reason =
+      command->add_option("--reason", arguments->reason, "why it is excluded")->needs(exclude);
+  exclude->needs(reason);
+  command->add_option("--include", arguments->include, "take an exclusion back")
+      ->type_name("RUN")
+      ->excludes(exclude);
+  return {command, [arguments] { return run_runs(*arguments); }};
+}
+
+}  // namespace sipplab::cli

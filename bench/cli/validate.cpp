@@ -1,0 +1,127 @@
+// sipplab validate: a second opinion on any solution file, the published planner's
+// logs included.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "planner/io/solution_io.hpp"
+#include "planner/io/svg.hpp"
+#include "planner/io/text_file.hpp"
+#include "planner/validator/validator.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct ValidateArguments {
+  InstanceFlags instance;
+  std::string solution;
+  std::optional<std::string> ssi;
+  std::optional<std::string> svg;
+  bool json = false;
+};
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string to_json(const Instance& instance, const SolutionDocument& document,
+                    const ValidationOptions& options, const ValidationReport& report) {
+  nlohmann::ordered_json violations = nlohmann::ordered_json::array();
+  for (const Violation& violation : report.violations) {
+    nlohmann::ordered_json entry;
+    entry["kind"] = std::string(name(violation.kind));
+    entry["agent"] = violation.agent;
+    entry["other"] =
+        violation.other ? nlohmann::ordered_json(*violation.other) : nlohmann::ordered_json(nullptr);
+    entry["time"] = number_or_null(violation.time_s);
+    entry["depth"] = number_or_null(violation.depth_cells);
+    entry["message"] = violation.message;
+    violations.push_back(std::move(entry));
+  }
+  nlohmann::ordered_json json;
+  json["valid"] = report.valid();
+  json["robots"] = instance.agents.size();
+  json["makespan"] = number_or_null(makespan_s(document.solution));
+  json["flowtime"] = number_or_null(flowtime_s(document.solution));
+  json["min_clearance"] = number_or_null(report.min_clearance_cells);
+  json["ssi_checked"] = options.order.empty() ? "none" : format_ssi(options.ssi_s);
+  json["violations"] = std::move(violations);
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string summary(const SolutionDocument& document, const ValidationOptions& options,
+                    const ValidationReport& report) {
+  std::string text;
+  for (const Violation& violation : report.violations) text += violation.message + "\n";
+  if (!report.valid()) {
+    const bool more = report.violations.size() >= options.max_violations;
+    return text +
+           fmt::format("invalid: {}{} violations\n", more ? "at least " : "", report.violations.size());
+  }
+  text += fmt::format("valid: makespan {:.3f} s, flowtime {:.3f} s", makespan_s(document.solution),
+                      flowtime_s(document.solution));
+  if (std::isfinite(report.min_clearance_cells)) {
+    text += fmt::format(", least clearance {:.2g} cells", report.min_clearance_cells);
+  }
+  if (!options.order.empty()) text += fmt::format(", start-safe interval {} kept", format_ssi(options.ssi_s));
+  return text + "\n";
+}
+
+int run_validate(const ValidateArguments& arguments) {
+  const Expected<LoadedInstance, std::string> loaded = arguments.instance.load();
+  if (!loaded) return fail(kBadUsage, loaded.error());
+  const Input<SolutionDocument> solution = load_solution(arguments.solution, loaded->instance);
+  if (!solution) return fail(kBadUsage, solution.error().message());
+  const SolutionDocument& document = *solution;
+  if (document.status != "solved") {
+    return fail(kBadUsage, arguments.solution + ": no solution in it (status " + document.status +
+                               "), expected a solved instance");
+  }
+
+  ValidationOptions options;
+  if (document.options) options.ssi_s = document.options->ssi_s;
+  if (arguments.ssi) options.ssi_s = parse_ssi(*arguments.ssi).value_or(0);
+  if (options.ssi_s > 0) options.order = document.order;
+  if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded->instance.agents.empty()) {
+    return fail(kBadUsage,
+                arguments.solution + ": no priority order in it, expected one to check --ssi against");
+  }
+
+  const ValidationReport report = validate(loaded->instance, document.solution, options);
+  if (arguments.svg) {
+    SvgOptions picture;
+    picture.subtitle = report.valid() ? "valid" : "invalid: " + report.violations.front().message;
+    const std::string text = draw_svg(loaded->instance, document.solution, report, picture);
+    if (const auto error = write_file(*arguments.svg, text)) return fail(kBadUsage, error->message());
+  }
+  print(arguments.json ? to_json(loaded->instance, document, options, report)
+                       : summary(document, options, report));
+  return report.valid() ? kSuccess : kNegativeVerdict;
+}
+
+}  // namespace
+
+Command add_validate_command(CLI::App& program) {
+  auto arguments = std::make_shared<ValidateArguments>();
+  CLI::App* command = program.add_subcommand("validate", "check a solution; exit code 1 where it is invalid");
+  arguments->instance.add_to(*command);
+  command->add_option("--solution", arguments->solution, "solution (XML, JSON or CSV)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default as the solution says")
+      ->check(check_ssi)
+      ->type_name("K");
+  command->add_option("--svg", arguments->svg, "draw the solution and its violations there")
+      ->type_name("FILE");
+  command->add_flag("--json", arguments->json, "print one JSON document");
+  return {command, [arguments] { return run_validate(*arguments); }};
+}
+
+}  // namespace sipplab::cli

@@ -1,0 +1,90 @@
+#include "bench/suites.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+constexpr const char* kEmpty = "empty:32x32";
+constexpr const char* kWarehouse = "warehouse";
+
+constexpr Rescheduling kNone = Rescheduling::kNone;
+constexpr Rescheduling kDeterministic = Rescheduling::kDeterministic;
+constexpr Rescheduling kRandom = Rescheduling::kRandom;
+
+/// Seconds: ten times what the restarts of the suites below take, so that on any
+/// machine it is they that strike.
+constexpr double kGenerousLimitS = 20;
+
+/// Any-angle over 8 neighbours: what the authors ran.
+constexpr PlannerMode kPaperPlanner{true, 3};
+
+Suite smoke() {
+  Suite suite;
+  suite.name = "smoke";
+  suite.purpose = "every kind of case once, in a few seconds";
+  suite.instances = 3;
+  suite.time_limit_s = kGenerousLimitS;
+  suite.max_restarts = 10;
+  suite.blocks = {
+      {kEmpty, {8, 64}, {0, 5}, {kNone, kDeterministic, kRandom}},
+      {kWarehouse, {16, 64}, {0, 5}, {kNone, kDeterministic, kRandom}},
+      {kWarehouse,
+       {32},
+       {2.5, kInfiniteSsi},
+       {kDeterministic},
+       {InitialOrder::kFifo, InitialOrder::kLongestFirst, InitialOrder::kRandom},
+       {{true, 2}, {false, 2}, {false, 3}, {false, 5}}},
+  };
+  return suite;
+}
+
+Suite density() {
+  Suite suite;
+  suite.name = "density";
+  suite.purpose = "rising numbers of robots on both maps of the paper, under five minutes";
+  suite.instances = 10;
+  suite.time_limit_s = kGenerousLimitS;
+  suite.max_restarts = 30;  // deterministic re-scheduling seldom needs more at these densities
+  suite.blocks = {
+      {kEmpty, {16, 64, 128, 192, 256}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
+      {kWarehouse, {16, 32, 64, 96, 128}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
+  };
+  return suite;
+}
+
+/// [AY18], section 5: Figure 1 (empty map, start-safe intervals, no re-scheduling) and
+/// Table 1 (warehouse, deterministic and random re-scheduling, the latter ten times),
+/// and the longest-first alternative of the text.
+Suite paper() {
+  Suite suite;
+  suite.name = "paper";
+  suite.purpose = "every cell of the paper's Figure 1 and Table 1; takes hours";
+  suite.instances = 100;
+  suite.time_limit_s = kDefaultTimeLimitS;
+  SuiteBlock figure{
+      kEmpty, {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320}, {0, 1, 3, 5, 7, 9, kInfiniteSsi}, {kNone}};
+  figure.planners = {kPaperPlanner};
+  SuiteBlock table{kWarehouse, {16, 32, 64, 96, 128, 160, 192}, {5}, {kDeterministic, kRandom}};
+  table.planners = {kPaperPlanner};
+  table.random_seeds = 10;
+  SuiteBlock longest = table;
+  longest.reschedules = {kRandom};
+  longest.orders = {InitialOrder::kLongestFirst};
+  suite.blocks = {figure, table, longest};
+  return suite;
+}
+
+}  // namespace
+
+const std::vector<Suite>& suites() {
+  static const std::vector<Suite> all = {smoke(), density(), paper()};
+  return all;
+}
+
+const Suite* find_suite(std::string_view name) {
+  for (const Suite& suite : suites()) {
+    if (suite.name == name) return &suite;
+  }
+  return nullptr;
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,48 @@
+// The density sweeps that have names. A suite is a list of blocks; a block is the
+// product of its dimensions, and each element of the product is one case.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+
+/// Which planner for one robot.
+struct PlannerMode {
+  bool any_angle = true;
+  int connectedness = 2;  ///< 2^k neighbours
+};
+
+struct SuiteBlock {
+  std::string map;  ///< as `sipplab generate --map` takes it
+  std::vector<std::size_t> robots;
+  std::vector<double> ssi_s;
+  std::vector<Rescheduling> reschedules;
+  std::vector<InitialOrder> orders = {InitialOrder::kShortestFirst};
+  std::vector<PlannerMode> planners = {PlannerMode{}};
+  /// Seeds tried on each instance where the re-scheduling or the order is random.
+  std::uint64_t random_seeds = 1;
+};
+
+struct Suite {
+  std::string name;
+  std::string purpose;                       ///< one line
+  std::uint64_t instances = 1;               ///< per case
+  double time_limit_s = kDefaultTimeLimitS;  ///< wall clock, per instance
+  /// Tries after the first, per instance. Unlike the time limit it strikes at the same
+  /// point on every machine, so where it strikes first, results are repeatable.
+  std::uint64_t max_restarts = UINT64_MAX;
+  std::vector<SuiteBlock> blocks;
+};
+
+/// smoke, density, paper.
+const std::vector<Suite>& suites();
+
+/// None when there is no suite of that name.
+const Suite* find_suite(std::string_view name);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,152 @@
+#include "bench/sweep/expand.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace sipplab::bench {
+namespace {
+
+template <class T>
+void replace_unless_empty(std::vector<T>& dimension, const std::vector<T>& replacement) {
+  if (!replacement.empty()) dimension = replacement;
+}
+
+/// The block with the dimensions that the user replaced.
+SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
+  if (request.map) block.map = *request.map;
+  replace_unless_empty(block.robots, request.robots);
+  replace_unless_empty(block.ssi_s, request.ssi_s);
+  replace_unless_empty(block.reschedules, request.reschedules);
+  replace_unless_empty(block.orders, request.orders);
+  if (!request.connectedness.empty()) {
+    const bool any_angle = block.planners.front().any_angle;
+    block.planners.clear();
+    for (const int k : request.connectedness) block.planners.push_back({any_angle, k});
+  }
+  if (request.any_angle) {
+    for (PlannerMode& planner : block.planners) planner.any_angle = *request.any_angle;
+  }
+  return block;
+}
+
+/// Options of which only the limits count: the suite's, or what the user set.
+PlannerOptions limits_of(const SweepRequest& request) {
+  PlannerOptions limits;
+  if (request.suite != nullptr) {
+    limits.time_limit_s = request.suite->time_limit_s;
+    limits.max_restarts = request.suite->max_restarts;
+  }
+  limits.time_limit_s = request.time_limit_s.value_or(limits.time_limit_s);
+  limits.max_restarts = request.max_restarts.value_or(limits.max_restarts);
+  limits.max_expansions = request.max_expansions.value_or(limits.max_expansions);
+  return limits;
+}
+
+class Expansion {
+ public:
+  explicit Expansion(const SweepRequest& request) : request_(request) {}
+
+  /// Adds the cases of a block on one set of instances; cases that are there already
+  /// (blocks overlap once dimensions are replaced) are left out.
+  void add_cases(const SuiteBlock& block, std::size_t set, const PlannerOptions& limits) {
+    for (const PlannerMode& planner : block.planners) {
+      for (const InitialOrder order : block.orders) {
+        for (const Rescheduling rescheduling : block.reschedules) {
+          for (const double ssi_s : block.ssi_s) {
+            PlannerOptions options = limits;
+            options.order = order;
+            options.rescheduling = rescheduling;
+            options.ssi_s = ssi_s;
+            options.any_angle = planner.any_angle;
+            options.connectedness = planner.connectedness;
+            add_seeds(block, set, options);
+          }
+        }
+      }
+    }
+  }
+
+  std::size_t add_set(InstanceSet set) {
+    sweep_.sets.push_back(std::move(set));
+    return sweep_.sets.size() - 1;
+  }
+
+  /// The set of a map and a number of robots, made when it is first asked for.
+  Expected<std::size_t, std::string> generated_set(const std::string& map, std::size_t robots,
+                                                   std::uint64_t count) {
+    for (std::size_t i = 0; i < generated_.size(); ++i) {
+      if (generated_[i].first == map && sweep_.sets[i].robots == robots) return i;
+    }
+    Expected<InstanceSet, std::string> set = generate_set(map, robots, count, request_.seed);
+    if (!set) return Unexpected{set.error()};
+    generated_.emplace_back(map, robots);
+    return add_set(std::move(*set));
+  }
+
+  ExpandedSweep take() { return std::move(sweep_); }
+
+ private:
+  void add_seeds(const SuiteBlock& block, std::size_t set, PlannerOptions options) {
+    const bool random =
+        options.rescheduling == Rescheduling::kRandom || options.order == InitialOrder::kRandom;
+    const std::uint64_t seeds = random ? block.random_seeds : 1;
+    for (std::uint64_t k = 0; k < seeds; ++k) {
+      options.seed = request_.seed + k;
+      const InstanceSet& instances = sweep_.sets[set];
+      SweepCase parameters{
+          instances.environment,  instances.map_spec,          instances.name, instances.robots,
+          instances.radius_cells, instances.speed_cells_per_s, options,        set};
+      std::string name = case_name(parameters, seeds > 1);
+      if (names_.insert(name).second) sweep_.cases.push_back({std::move(name), std::move(parameters)});
+    }
+  }
+
+  const SweepRequest& request_;
+  ExpandedSweep sweep_;
+  std::set<std::string> names_;
+  std::vector<std::pair<std::string, std::size_t>> generated_;
+};
+
+Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request) {
+  const PlannerOptions defaults;
+  SuiteBlock block;
+  block.ssi_s = {defaults.ssi_s};
+  block.reschedules = {defaults.rescheduling};
+  block = replaced(std::move(block), request);
+  Expansion expansion(request);
+  std::set<std::pair<std::string, std::size_t>> seen;
+  for (const std::string& folder : request.folders) {
+    Expected<std::vector<InstanceSet>, std::string> sets = load_sets(folder, request.robots, request.count);
+    if (!sets) return Unexpected{sets.error()};
+    for (InstanceSet& set : *sets) {
+      if (!seen.emplace(set.environment, set.robots).second) {
+        return Unexpected{folder + ": a second set " + set.environment + " with " +
+                          std::to_string(set.robots) +
+                          " robots, expected folders that differ in their last two names"};
+      }
+      expansion.add_cases(block, expansion.add_set(std::move(set)), limits_of(request));
+    }
+  }
+  return expansion.take();
+}
+
+}  // namespace
+
+Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
+  if (request.suite == nullptr) return expand_folders(request);
+  const Suite& suite = *request.suite;
+  Expansion expansion(request);
+  for (const SuiteBlock& original : suite.blocks) {
+    const SuiteBlock block = replaced(original, request);
+    for (const std::size_t robots : block.robots) {
+      const Expected<std::size_t, std::string> set =
+          expansion.generated_set(block.map, robots, request.count.value_or(suite.instances));
+      if (!set) return Unexpected{set.error()};
+      expansion.add_cases(block, *set, limits_of(request));
+    }
+  }
+  return expansion.take();
+}
+
+}  // namespace sipplab::bench

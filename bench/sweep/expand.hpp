@@ -1,0 +1,48 @@
+// From what the user asked for to the list of cases and their instances.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/suites.hpp"
+#include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/sweep_case.hpp"
+#include "planner/core/expected.hpp"
+
+namespace sipplab::bench {
+
+/// A suite or folders of instances, and what replaces dimensions of the suite. Empty
+/// lists and options leave the suite's own.
+struct SweepRequest {
+  const Suite* suite = nullptr;      ///< none where folders are given
+  std::vector<std::string> folders;  ///< planned with PlannerOptions' defaults unless replaced
+  std::optional<std::string> map;
+  std::vector<std::size_t> robots;
+  std::vector<double> ssi_s;
+  std::vector<Rescheduling> reschedules;
+  std::vector<InitialOrder> orders;
+  std::vector<int> connectedness;
+  std::optional<bool> any_angle;
+  std::optional<std::uint64_t> count;
+  std::optional<double> time_limit_s;
+  std::optional<std::uint64_t> max_expansions;
+  std::optional<std::uint64_t> max_restarts;
+  std::uint64_t seed = 1;
+};
+
+struct NamedCase {
+  std::string name;
+  SweepCase parameters;
+};
+
+struct ExpandedSweep {
+  std::vector<NamedCase> cases;  ///< names are unique
+  std::vector<InstanceSet> sets;
+};
+
+/// Makes or reads all instances. Errors: one line.
+Expected<ExpandedSweep, std::string> expand(const SweepRequest& request);
+
+}  // namespace sipplab::bench

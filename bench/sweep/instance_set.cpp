@@ -1,0 +1,186 @@
+#include "bench/sweep/instance_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "planner/generator/generator.hpp"
+#include "planner/io/load_instance.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+PreparedInstance prepare(Instance instance, std::string name) {
+  PreparedInstance prepared;
+  prepared.row.content_hash = content_hash(instance);
+  prepared.row.map_hash = content_hash(Instance{instance.map, {}, {}});
+  prepared.row.name = std::move(name);
+  prepared.row.robots = static_cast<std::int64_t>(instance.agents.size());
+  prepared.row.width_cells = instance.map.width();
+  prepared.row.height_cells = instance.map.height();
+  prepared.row.blocked_cells = static_cast<std::int64_t>(instance.map.blocked_count());
+  prepared.instance = std::move(instance);
+  return prepared;
+}
+
+/// The value that all robots of the set share, or 0.
+double common_value(const InstanceSet& set, double Agent::*member, double without_robots) {
+  std::optional<double> common;
+  for (const PreparedInstance& prepared : set.instances) {
+    for (const Agent& agent : prepared.instance.agents) {
+      if (common.value_or(agent.*member) != agent.*member) return 0;
+      common = agent.*member;
+    }
+  }
+  return common.value_or(without_robots);
+}
+
+bool all_digits(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// The last names of a path, without those that only a machine or a count gives:
+/// ../shared/aamas2018/warehouse/128 is aamas2018/warehouse. The same folder has the
+/// same name on every machine.
+std::string short_name(const fs::path& folder, bool with_number) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : fs::absolute(folder).lexically_normal()) {
+    if (!part.empty() && part != "/") parts.push_back(part.string());
+  }
+  std::string number;
+  if (parts.size() > 1 && all_digits(parts.back())) {
+    number = parts.back();
+    parts.pop_back();
+  }
+  constexpr std::size_t kNames = 2;
+  std::string name;
+  for (std::size_t i = parts.size() - std::min(parts.size(), kNames); i < parts.size(); ++i) {
+    name += (name.empty() ? "" : "/") + parts[i];
+  }
+  return with_number && !number.empty() ? name + "/" + number : name;
+}
+
+std::vector<fs::path> sorted_entries(const fs::path& folder, bool folders, std::error_code& error) {
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string extension = entry->path().extension().string();
+    std::error_code ignored;
+    if (folders ? entry->is_directory(ignored)
+                : !entry->is_directory(ignored) && (extension == ".xml" || extension == ".scen")) {
+      found.push_back(entry->path());
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });
+  return found;
+}
+
+/// Adds the files of one folder to `sets`, by number of robots.
+std::optional<std::string> load_files(const fs::path& folder, const std::vector<fs::path>& files,
+                                      std::optional<std::size_t> robots, std::vector<InstanceSet>& sets) {
+  std::map<std::size_t, InstanceSet> by_robots;
+  for (const fs::path& file : files) {
+    InstanceFiles request;
+    request.instance = file.string();
+    request.agents = robots;
+    Input<LoadedInstance> loaded = load_instance(request);
+    if (!loaded) return loaded.error().message();
+    const std::size_t agents = loaded->instance.agents.size();
+    InstanceSet& set = by_robots[agents];
+    set.robots = agents;
+    set.instances.push_back(
+        prepare(std::move(loaded->instance), short_name(folder, true) + "/" + file.filename().string()));
+  }
+  for (auto& [agents, set] : by_robots) {
+    set.environment = short_name(folder, false);
+    set.map_spec = "files";
+    set.name = short_name(folder, true);
+    set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);
+    set.speed_cells_per_s = common_value(set, &Agent::speed_cells_per_s, kDefaultSpeedCellsPerS);
+    sets.push_back(std::move(set));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+      continue;
+    }
+    while (i < a.size() && a[i] == '0') ++i;
+    while (j < b.size() && b[j] == '0') ++j;
+    std::size_t a_end = i;
+    std::size_t b_end = j;
+    while (a_end < a.size() && is_digit(a[a_end])) ++a_end;
+    while (b_end < b.size() && is_digit(b[b_end])) ++b_end;
+    if (a_end - i != b_end - j) return a_end - i < b_end - j;
+    const int order = a.compare(i, a_end - i, b, j, b_end - j);
+    if (order != 0) return order < 0;
+    i = a_end;
+    j = b_end;
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;  // "01" and "1": any order, as long as it is one
+}
+
+Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
+                                                std::uint64_t count, std::uint64_t seed) {
+  const Expected<MapSpec, std::string> spec = parse_map_spec(map_spec);
+  if (!spec) return Unexpected{spec.error()};
+  InstanceSet set;
+  set.environment = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).stem().string()
+                                                       : map_spec.substr(0, map_spec.find(':'));
+  set.map_spec = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).filename().string() : map_spec;
+  set.name = fmt::format("generated/seed:{}", seed);
+  set.robots = robots;
+  for (std::uint64_t index = 0; index < count; ++index) {
+    GeneratorOptions options;
+    options.agents = robots;
+    options.seed = seed;
+    options.index = index;
+    Expected<Instance, std::string> instance = generate_instance(*spec, options);
+    if (!instance) return Unexpected{instance.error()};
+    set.instances.push_back(prepare(std::move(*instance), fmt::format("{} agents:{} seed:{} index:{}",
+                                                                      set.map_spec, robots, seed, index)));
+  }
+  return set;
+}
+
+Expected<std::vector<InstanceSet>, std::string> load_sets(const std::string& folder,
+                                                          const std::vector<std::size_t>& robots,
+                                                          std::optional<std::uint64_t> count) {
+  std::error_code error;
+  std::vector<fs::path> folders = {fs::path(folder)};
+  if (sorted_entries(folder, false, error).empty() && !error) folders = sorted_entries(folder, true, error);
+  if (error) return Unexpected{folder + ": " + error.message() + ", expected a folder of instances"};
+
+  std::vector<std::optional<std::size_t>> wanted(robots.begin(), robots.end());
+  if (wanted.empty()) wanted.push_back(std::nullopt);
+  std::vector<InstanceSet> sets;
+  for (const fs::path& part : folders) {
+    std::vector<fs::path> files = sorted_entries(part, false, error);
+    if (count && files.size() > *count) files.resize(*count);
+    for (const std::optional<std::size_t> number : wanted) {
+      if (auto line = load_files(part, files, number, sets)) return Unexpected{std::move(*line)};
+    }
+  }
+  if (sets.empty()) return Unexpected{folder + ": no instances in it, expected .xml or .scen files"};
+  return sets;
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,46 @@
+// The instances of a case: generated from a seed, or the files of a folder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "db/records.hpp"
+#include "planner/core/expected.hpp"
+#include "planner/instance/instance.hpp"
+
+namespace sipplab::bench {
+
+struct PreparedInstance {
+  Instance instance;
+  db::InstanceInfo row;  ///< as the history knows it
+};
+
+/// Instances with the same number of robots.
+struct InstanceSet {
+  std::string environment;  ///< "empty", "warehouse", or the folder's name
+  std::string map_spec;     ///< "empty:32x32", "warehouse", or "files"
+  std::string name;         ///< "generated/seed:1", or the folder's name
+  std::size_t robots = 0;
+  double radius_cells = kDefaultRadiusCells;          ///< 0 where robots differ
+  double speed_cells_per_s = kDefaultSpeedCellsPerS;  ///< 0 where robots differ
+  std::vector<PreparedInstance> instances;
+};
+
+/// `count` instances of one map and seed. Errors: one line.
+Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
+                                                std::uint64_t count, std::uint64_t seed);
+
+/// The .xml and .scen files of a folder in natural order (2.xml before 10.xml), or
+/// those of its sub-folders where it has none itself; one set for each number of
+/// robots. `robots` takes that many from each file instead of all; `count` takes the
+/// first so many files of each folder. Errors: one line, for the first bad file.
+Expected<std::vector<InstanceSet>, std::string> load_sets(const std::string& folder,
+                                                          const std::vector<std::size_t>& robots,
+                                                          std::optional<std::uint64_t> count);
+
+/// Digits compare as numbers: "2.xml" < "10.xml".
+bool natural_less(const std::string& a, const std::string& b);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,77 @@
+#include "bench/sweep/run_instance.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/validator/validator.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+db::ResultStatus row_status(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kSolved:
+      return db::ResultStatus::kSolved;
+    case PlanStatus::kFailed:
+      return db::ResultStatus::kFailed;
+    case PlanStatus::kLimit:
+      return db::ResultStatus::kLimit;
+  }
+  return db::ResultStatus::kFailed;
+}
+
+/// The history keeps the first 64 of the hash's 128 bits.
+std::optional<std::uint64_t> leading_bits(std::string_view hexadecimal) {
+  constexpr std::size_t kDigits = 16;
+  constexpr int kBase = 16;
+  std::uint64_t bits = 0;
+  const std::string_view digits = hexadecimal.substr(0, kDigits);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bits, kBase);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return bits;
+}
+
+std::string limit_struck(const PlanResult& result, const PlannerOptions& options) {
+  if (result.status != PlanStatus::kLimit) return "";
+  if (result.statistics.expansions >= options.max_expansions) return "expansions";
+  if (result.tries() > options.max_restarts) return "restarts";
+  return "time";
+}
+
+void add_verdict(const Instance& instance, const PlanResult& result, const PlannerOptions& options,
+                 db::ResultRow& row) {
+  const ValidationReport report = validate(instance, result.solution, {options.ssi_s, result.order()});
+  row.valid = report.valid();
+  row.violations = static_cast<std::int64_t>(report.violations.size());
+  if (!std::isnan(report.min_clearance_cells)) row.min_clearance_cells = report.min_clearance_cells;
+  if (report.valid()) return;
+  row.status = db::ResultStatus::kInvalid;
+  row.message = report.violations.front().message;
+}
+
+}  // namespace
+
+db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  const PlanResult result = plan(instance, options);
+
+  db::ResultRow row;
+  row.status = row_status(result.status);
+  row.planning_time_ns = std::llround(result.planning_seconds * kNanosecondsPerSecond);
+  row.tries = result.tries();
+  row.expansions = result.statistics.expansions;
+  row.generations = result.statistics.generations;
+  row.limit = limit_struck(result, options);
+  if (result.status != PlanStatus::kSolved) return row;
+  row.makespan_s = makespan_s(result.solution);
+  row.flowtime_s = flowtime_s(result.solution);
+  row.plan_hash = leading_bits(plan_hash(result.solution));
+  add_verdict(instance, result, options, row);
+  return row;
+}
+
+}  // namespace sipplab::bench

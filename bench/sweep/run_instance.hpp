@@ -1,0 +1,15 @@
+// One measurement: plan an instance, have the validator check the plan, and put
+// down what came out.
+#pragma once
+
+#include "db/records.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+
+/// The row of the history, repetition aside. A plan that the validator rejects has
+/// status invalid and the first violation as its message.
+db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options);
+
+}  // namespace sipplab::bench

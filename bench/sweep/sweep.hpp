@@ -1,0 +1,84 @@
+// A sweep under way: the one place where planner, Google Benchmark and history meet.
+// Each case is a benchmark whose iterations run over its instances; when the case
+// is done, its results go to the history in one transaction.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/sweep/case_outcome.hpp"
+#include "bench/sweep/expand.hpp"
+#include "bench/sweep/progress.hpp"
+#include "db/recorder.hpp"
+
+namespace sipplab::bench {
+
+struct SweepEntry {
+  std::string name;
+  SweepCase parameters;
+  db::CaseInfo row;
+  CaseOutcome outcome;
+  std::int64_t repetitions = 0;  ///< done so far
+  bool begun = false;
+  bool finished = false;  ///< its results are in the history
+};
+
+/// Where the results go. Nothing is written before start().
+class Recording {
+ public:
+  /// `resume`: take up that run; else a new one. REQUIRES: an open history.
+  Recording(db::Database database, db::RunInfo info, std::optional<std::string> resume);
+
+  db::Result<db::Done> start();
+  bool started() const { return recorder_.has_value(); }
+  db::RunRecorder& recorder() { return *recorder_; }
+
+ private:
+  std::optional<db::Database> database_;
+  db::RunInfo info_;
+  std::optional<std::string> resume_;
+  std::optional<db::RunRecorder> recorder_;
+};
+
+class Sweep {
+ public:
+  Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress);
+
+  /// Makes a benchmark of each case. `fill_counters`: give every counter a value, as
+  /// CSV needs (-1 for a mean over nothing).
+  void register_benchmarks(bool fill_counters);
+
+  /// Opens the run in the history. False, with error(), where that fails.
+  bool begin();
+  /// Commits the results of a case; `name` is that of its benchmark.
+  void finish_case(const std::string& name);
+  /// Closes the run.
+  void end();
+
+  const std::vector<SweepEntry>& entries() const { return entries_; }
+  /// UUID of the run; empty before begin().
+  std::string run_uuid();
+  /// The first thing that went wrong with the history.
+  const std::optional<db::Error>& error() const { return error_; }
+  /// The first plan that the validator rejected.
+  const std::string& first_invalid() const { return first_invalid_; }
+  Progress& progress() { return progress_; }
+
+ private:
+  void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
+  bool stopping() const;
+
+  std::vector<InstanceSet> sets_;
+  std::vector<SweepEntry> entries_;
+  Recording recording_;
+  std::int64_t repetitions_;
+  Progress progress_;
+  std::optional<db::Error> error_;
+  std::string first_invalid_;
+};
+
+}  // namespace sipplab::bench

@@ -1,0 +1,58 @@
+#include "bench/sweep/sweep_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sipplab::bench {
+namespace {
+
+/// The history keeps counts as signed integers; its largest means "no limit".
+std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCountLimit); }
+
+}  // namespace
+
+std::string planner_name(const PlannerOptions& options) {
+  return fmt::format("{}-{}", options.any_angle ? "any-angle" : "grid", 1 << options.connectedness);
+}
+
+std::string case_name(const SweepCase& sweep_case, bool with_seed) {
+  const PlannerOptions& options = sweep_case.options;
+  const bool generated = sweep_case.map_spec != "files";
+  return fmt::format("plan/{}/agents:{}/ssi:{}/reschedule:{}/order:{}/planner:{}",
+                     generated ? sweep_case.map_spec : sweep_case.environment, sweep_case.robots,
+                     format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
+                     planner_name(options)) +
+         (with_seed ? fmt::format("/seed:{}", options.seed) : "");
+}
+
+std::string short_case_name(const SweepCase& sweep_case) {
+  const PlannerOptions& options = sweep_case.options;
+  return fmt::format("{}, {} robots, ssi {}, {}, {}, {}", sweep_case.environment, sweep_case.robots,
+                     format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
+                     planner_name(options));
+}
+
+db::CaseInfo case_row(const SweepCase& sweep_case) {
+  const PlannerOptions& options = sweep_case.options;
+  db::CaseInfo row;
+  row.environment = sweep_case.environment;
+  row.map_spec = sweep_case.map_spec;
+  row.instance_set = sweep_case.instance_set;
+  row.robots = static_cast<std::int64_t>(sweep_case.robots);
+  row.ssi_s = options.ssi_s;
+  row.planner = options.any_angle ? "aa-sipp" : "sipp";
+  row.order = std::string(name(options.order));
+  row.reschedule = std::string(name(options.rescheduling));
+  row.any_angle = options.any_angle;
+  row.connectedness = options.connectedness;
+  row.radius_cells = sweep_case.radius_cells;
+  row.speed_cells_per_s = sweep_case.speed_cells_per_s;
+  row.time_limit_s = options.time_limit_s;
+  row.max_expansions = row_count(options.max_expansions);
+  row.max_restarts = row_count(options.max_restarts);
+  row.seed = options.seed;
+  return row;
+}
+
+}  // namespace sipplab::bench

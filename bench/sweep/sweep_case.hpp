@@ -1,0 +1,37 @@
+// One case of a sweep: a set of instances and the options to plan them with.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "bench/sweep/instance_set.hpp"
+#include "db/records.hpp"
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+
+struct SweepCase {
+  std::string environment;
+  std::string map_spec;
+  std::string instance_set;
+  std::size_t robots = 0;
+  double radius_cells = kDefaultRadiusCells;
+  double speed_cells_per_s = kDefaultSpeedCellsPerS;
+  PlannerOptions options;
+  std::size_t set = 0;  ///< which InstanceSet of the sweep
+};
+
+/// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
+std::string planner_name(const PlannerOptions& options);
+
+/// "plan/warehouse/agents:64/ssi:5/reschedule:deterministic/order:shortest/planner:any-angle-4",
+/// and "/seed:2" where more than one seed is tried.
+std::string case_name(const SweepCase& sweep_case, bool with_seed);
+
+/// "warehouse, 64 robots, ssi 5, deterministic, shortest, any-angle-4": for a line of progress.
+std::string short_case_name(const SweepCase& sweep_case);
+
+/// The row of the history.
+db::CaseInfo case_row(const SweepCase& sweep_case);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,244 @@
+#!/usr/bin/env bash
+# A golden run of the command line: what a user does, what a user gets wrong, and what
+# the machine does to a sweep. Prints one line per promise that is broken.
+#
+#   golden_cli.sh PATH_OF_SIPPLAB
+set -uo pipefail
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# A copy, so that another user may run it for the test of permissions.
+install -m 755 "$1" "$work/sipplab"
+chmod 755 "$work"
+cd "$work" || exit 1
+sipplab=$work/sipplab
+# A sanitizer's finding must not look like a negative verdict.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
+unset SIPPLAB_DB
+
+broken=0
+complain() {
+  printf 'BROKEN: %s\n' "$*"
+  broken=$((broken + 1))
+}
+
+# expect CODE ARGUMENTS...: runs sipplab into the files out and err.
+expect() {
+  local code=$1 got=0
+  shift
+  "$sipplab" "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err))"
+}
+
+# refused PATTERN ARGUMENTS...: exit code 2, one line on stderr that holds PATTERN,
+# nothing on stdout.
+refused() {
+  local pattern=$1
+  shift
+  expect 2 "$@"
+  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $* ($(head -c 300 err))"
+  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
+  [ ! -s out ] || complain "something on stdout: sipplab $*"
+}
+
+says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 300 "${2:-out}")"; }
+equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
+ask() { sqlite3 history.db "$1"; }
+
+# --- what a user does -------------------------------------------------------------
+
+expect 0 generate --map warehouse --agents 16 --count 11 --seed 7 -o warehouse
+equal "$(find warehouse -type f | wc -l)" 11 "generated files"
+expect 0 generate --map warehouse --agents 16 --count 2 --seed 7 -o again
+cmp -s warehouse/1.xml again/1.xml || complain "instance 1 depends on the count"
+expect 0 generate --map random:12x9:0.2 --agents 3 --seed 3 --format movingai -o movingai --json
+says '"files"'
+
+expect 0 plan --instance warehouse/0.xml
+says 'solved, valid'
+for format in xml json csv; do
+  expect 0 plan --instance warehouse/0.xml --ssi 2.5 -o "plan.$format" --svg plan.svg
+  expect 0 validate --instance warehouse/0.xml --solution "plan.$format"
+  says '^valid'
+done
+says '</svg>' plan.svg
+says '"ssi": 2.5' plan.json
+expect 0 validate --instance warehouse/0.xml --solution plan.json --ssi 2.5 --json
+says '"valid": true'
+says '"ssi_checked": "2.5"'
+expect 1 validate --instance warehouse/1.xml --solution plan.json
+says 'invalid'
+expect 0 plan --instance movingai/0.scen --connectedness 5 --no-any-angle --json
+says '"status": "solved"'
+expect 0 plan --map movingai/0.map --task movingai/0.scen --format csv
+says '^agent,id,t0,t1,x0,y0,x1,y1'
+
+# The same plan twice.
+expect 0 plan --instance warehouse/3.xml --json
+hash=$(grep plan_hash out)
+expect 0 plan --instance warehouse/3.xml --json
+equal "$(grep plan_hash out)" "$hash" "the plan, planned again"
+
+# Nobody to plan for.
+printf '<root><agents number="0"/><map><grid width="2" height="1"><row>0 0</row></grid></map></root>' >nobody.xml
+expect 0 plan --instance nobody.xml --json
+says '"status": "solved"'
+says '"makespan": 0,'
+
+# Two robots that swap places in a corridor: no plan, and that is an answer.
+printf '<root><agents number="2"><agent start.x="0" start.y="0" goal.x="3" goal.y="0"/><agent start.x="3" start.y="0" goal.x="0" goal.y="0"/></agents><map><grid width="4" height="1"><row>0 0 0 0</row></grid></map></root>' >swap.xml
+expect 1 plan --instance swap.xml --json
+says '"status": "failed"'
+says '"valid": false'
+expect 1 plan --instance swap.xml --max-expansions 1 --json
+says '"status": "limit"'
+
+# --- the history ------------------------------------------------------------------
+
+expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --connectedness 2 --count 2 --db history.db
+says '^warehouse +deterministic +8 +2.5 +2/2 +0 +1.00'
+equal "$(ask 'SELECT group_concat(ssi_s) FROM (SELECT ssi_s FROM v_run_cells ORDER BY ssi_s)')" "0.0,2.5,Inf" "start-safe intervals"
+equal "$(ask 'SELECT count(*) FROM v_results WHERE valid AND status = '\''solved'\')" 6 "results"
+expect 0 bench --instances warehouse --db history.db --count 3 --benchmark_format=json
+python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "bench's JSON does not parse"
+equal "$(ask "SELECT group_concat(instance) FROM (SELECT instance FROM v_results WHERE map_spec = 'files' ORDER BY instance)" | tr -d ' ' | sed 's/[^,]*\///g')" "0.xml,1.xml,2.xml" "instances of a folder"
+expect 0 bench --suite smoke --benchmark_list_tests --benchmark_filter=agents:32/.*fifo
+equal "$(wc -l <out)" 8 "cases listed"
+says '^plan/warehouse/agents:32/ssi:2.5/reschedule:deterministic/order:fifo/planner:any-angle-4'
+[ ! -e sipplab.db ] || complain "listing cases made a history"
+expect 0 runs --db history.db
+equal "$(grep -cE 'smoke|instances' out)" 2 "runs listed"
+expect 0 show --db history.db --json
+says '"cells"'
+expect 0 sql --db history.db 'SELECT count(*) AS n FROM v_results' --format csv
+says '^9'
+export SIPPLAB_DB=history.db
+expect 0 sql 'SELECT suite FROM v_runs ORDER BY suite' --json
+says '"suite": ?"instances"'
+unset SIPPLAB_DB
+
+# --- what a user gets wrong -------------------------------------------------------
+
+dump() { sqlite3 history.db .dump | cksum; }
+before=$(dump)
+
+refused 'subcommand'
+refused 'frobnicate' plan --frobnicate
+refused 'ssi' plan --instance warehouse/0.xml --ssi -1
+refused 'ssi' plan --instance warehouse/0.xml --ssi nan
+refused 'time-limit' plan --instance warehouse/0.xml --time-limit 0
+refused 'connectedness' plan --instance warehouse/0.xml --connectedness 6
+refused 'no instance' plan
+refused 'missing.xml' plan --instance missing.xml
+refused 'robots' generate --map empty:2x2 --agents 5 -o too_many
+[ ! -e too_many ] || complain "an impossible wish left a folder"
+refused 'map|empty:0x5' generate --map empty:0x5 --agents 1 -o too_many
+refused 'map' generate --map random:5x5:nan --agents 1 -o too_many
+refused 'suite' bench --suite nonsense --db history.db
+refused 'unknown' bench --suite smoke --benchmark_nonsense=1 --db history.db
+refused 'format' bench --suite smoke --benchmark_format=xml --db history.db
+refused 'no case' bench --suite smoke --benchmark_filter=nonsense --db history.db
+refused 'filter' bench --suite smoke '--benchmark_filter=(' --db history.db
+refused 'robots|agents' bench --suite smoke --robots 5000 --db history.db
+refused 'nowhere' bench --instances nowhere --db history.db
+refused 'nowhere.db' runs --db nowhere.db
+[ ! -e nowhere.db ] || complain "reading made a history"
+refused '' sql --db history.db 'DELETE FROM result'
+refused '' sql --db history.db 'SELECT nonsense'
+refused '' show --db history.db ffffffff
+echo 'not a database, whatever its name says; long enough to be taken for one' >text.db
+refused 'text.db' bench --suite smoke --db text.db
+equal "$(wc -c <text.db)" 72 "bytes of a file that is no database"
+
+mkdir bad
+agents='<agents number="1"><agent start.x="0" start.y="0" goal.x="1" goal.y="0"/></agents>'
+grid='<map><grid width="2" height="1"><row>0 0</row></grid></map>'
+instance() { printf '<root>%s%s</root>' "$1" "$2" >"bad/$3.xml"; }
+head -c 700 warehouse/0.xml >bad/truncated.xml
+instance "${agents/number=\"1\"/number=\"3\"}" "$grid" wrong_count
+instance "$agents" '<map><grid width="2" height="2"><row>0 0</row></grid></map>' missing_row
+instance "$agents" '<map><grid width="2" height="1"><row>0 0 0 0</row></grid></map>' overlong_row
+instance "$agents" '<map><grid width="2" height="1"><row></row></grid></map>' empty_row
+instance "$agents" '<map><grid width="2" height="1"><row>1 0</row></grid></map>' blocked_start
+instance '<agents number="2"><agent start.x="0" start.y="0" goal.x="1" goal.y="0"/><agent start.x="0" start.y="0" goal.x="0" goal.y="0"/></agents>' "$grid" same_start
+instance '<agents number="1"><agent start.x="0" start.y="0" goal.x="2" goal.y="0"/></agents>' '<map><grid width="3" height="1"><row>0 1 0</row></grid></map>' unreachable
+instance '<agents number="1"><agent start.x="0" start.y="0" goal.x="9" goal.y="0"/></agents>' "$grid" outside
+instance "${agents/<agent /<agent size=\"nan\" }" "$grid" nan_size
+instance "${agents/<agent /<agent size=\"-1\" }" "$grid" negative_size
+instance "$agents" '<map><grid width="1000000000" height="1000000000"><row>0 0</row></grid></map>' huge
+instance "$agents" '<map><grid width="nan" height="-3"><row>0 0</row></grid></map>' nan_grid
+: >bad/empty.xml
+printf 'type octile\nheight 1000000000\nwidth 1000000000\nmap\n.\n' >bad/huge.scen
+for file in bad/*; do
+  refused "$file" plan --instance "$file" -o written.xml --svg written.svg
+  mkdir one && cp "$file" one/
+  refused "one/${file#bad/}" bench --instances one --db history.db
+  rm -r one
+done
+refused 'directory' plan --instance bad -o written.xml
+refused 'line|:1|:2' plan --instance bad/blocked_start.xml
+if [ -e written.xml ] || [ -e written.svg ]; then complain "bad input wrote something"; fi
+
+# Output that cannot be written.
+refused 'space|full' plan --instance warehouse/0.xml -o /dev/full
+refused 'space|full' plan --instance warehouse/0.xml --svg /dev/full
+refused 'nowhere' plan --instance warehouse/0.xml -o nowhere/plan.xml
+"$sipplab" plan --instance warehouse/0.xml >/dev/full 2>err
+equal "$?" 2 "exit code with stdout full"
+"$sipplab" plan --instance warehouse/0.xml --json 2>err >&-
+equal "$?" 2 "exit code with stdout closed"
+equal "$(wc -l <err)" 1 "lines on stderr with stdout closed"
+{ "$sipplab" plan --instance warehouse/0.xml --json 2>err; echo $? >code; } | :
+equal "$(cat code)" 2 "exit code when the reader has gone"
+
+# No permission: as somebody else where we are root.
+install -m 000 /dev/null secret.xml
+if [ "$(id -u)" -ne 0 ]; then
+  refused 'secret.xml.*ermission' plan --instance secret.xml
+elif command -v setpriv >/dev/null; then
+  setpriv --reuid=65534 --regid=65534 --clear-groups "$sipplab" plan --instance secret.xml >out 2>err
+  equal "$?" 2 "exit code without permission"
+  says 'secret.xml.*ermission' err
+fi
+
+equal "$(dump)" "$before" "the history after bad input"
+
+# --- what happens to a sweep ------------------------------------------------------
+
+# Killed at any moment: what was finished is there, and --resume does the rest. How
+# long a sweep takes depends on the machine and the build, so it grows until the kill
+# comes in time.
+sweep=(bench --suite smoke --robots 24 --db killed.db)
+for count in 4 16 64 256; do
+  rm -f killed.db*
+  "$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>&1 &
+  victim=$!
+  until [ "$(sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0)" -ge 3 ] || ! kill -0 $victim 2>/dev/null; do :; done
+  kill -KILL $victim 2>/dev/null
+  wait $victim 2>/dev/null
+  [ "$(sqlite3 killed.db 'SELECT status FROM run')" = running ] && break
+done
+equal "$(sqlite3 killed.db 'PRAGMA integrity_check')" ok "integrity after SIGKILL"
+equal "$(sqlite3 killed.db 'SELECT count(*) FROM cell WHERE result_count <> (SELECT count(*) FROM result WHERE cell_id = cell.id)')" 0 "half cases"
+sqlite3 killed.db 'SELECT * FROM cell ORDER BY id' >finished_before
+expect 0 "${sweep[@]}" --count "$count" --resume
+says 'resuming' err
+sqlite3 killed.db "SELECT * FROM cell ORDER BY id LIMIT $(wc -l <finished_before)" | cmp -s - finished_before ||
+  complain "--resume did finished cases again"
+expect 0 "${sweep[@]}" --benchmark_list_tests
+equal "$(sqlite3 killed.db 'SELECT count(*), count(DISTINCT case_id) FROM cell')" "$(wc -l <out)|$(wc -l <out)" "cases after --resume"
+equal "$(sqlite3 killed.db 'SELECT count(*), status FROM run')" "1|finished" "runs after --resume"
+
+# Ctrl-C: the record is closed, the exit code tells, the next step is named.
+rm -f killed.db*
+"$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>err &
+victim=$!
+until [ "$(sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0)" -ge 1 ] || ! kill -0 $victim 2>/dev/null; do :; done
+kill -INT $victim 2>/dev/null
+wait $victim
+equal "$?" 130 "exit code after Ctrl-C"
+says 'resume' err
+equal "$(sqlite3 killed.db 'SELECT status FROM run')" aborted "run after Ctrl-C"
+
+[ "$broken" -eq 0 ] && echo "all promises kept"
+exit "$((broken > 0))"

@@ -1,0 +1,123 @@
+// Opening a history: what the file is comes first, changing it comes after.
+#include "db/database.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include "db/migrate.hpp"
+
+namespace sipplab::db {
+namespace {
+
+namespace fs = std::filesystem;
+
+// SQLite's own words for these ("unable to open database file") help nobody.
+std::optional<Error> find_path_error(const fs::path& path, bool must_exist) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  const bool exists = fs::exists(status);
+  if (fs::is_directory(status)) {
+    return Error{ErrorKind::kCannotOpen,
+                 fmt::format("{}: a directory, expected a database file", path.string())};
+  }
+  if (exists && !fs::is_regular_file(status)) {
+    return Error{ErrorKind::kCannotOpen,
+                 fmt::format("{}: not a regular file, expected a database file", path.string())};
+  }
+  if (!exists && must_exist) {
+    return Error{
+        ErrorKind::kNotFound,
+        fmt::format("{}: no such file, expected a history; `sipplab bench` makes one", path.string())};
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path{"."};
+  if (!exists && !fs::is_directory(folder, code)) {
+    return Error{ErrorKind::kCannotOpen,
+                 fmt::format("{}: no folder {}, expected it to exist", path.string(), folder.string())};
+  }
+  return std::nullopt;
+}
+
+Result<Done> configure_for_writing(sqlite::Connection& connection) {
+  // WAL: readers go on while a case is written, and a killed writer leaves no half of
+  // a transaction. NORMAL: a commit does not wait for the disk; a power failure can
+  // take the newest cases, never the integrity.
+  // The cache holds the index of some 500,000 instances (32 MiB), and the log grows to
+  // 16 MiB before it is copied back: with SQLite's 2 and 4 MiB pages are written and
+  // read again in the middle of a sweep.
+  for (const char* pragma :
+       {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL", "PRAGMA foreign_keys = ON",
+        "PRAGMA cache_size = -32768", "PRAGMA wal_autocheckpoint = 4096"}) {
+    if (auto done = connection.execute(pragma, "preparing it for writing"); !done) return done;
+  }
+  return Done{};
+}
+
+bool has_write_ahead_log(const fs::path& path) {
+  std::error_code code;
+  const auto size = fs::file_size(path.string() + "-wal", code);
+  return !code && size > 0;
+}
+
+// On a read-only medium SQLite cannot place its lock files. Without a log to replay
+// the file alone is the whole database, and nobody can be writing to it.
+Result<sqlite::Connection> open_for_reading(const fs::path& path, int latest, SchemaState& state) {
+  auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly);
+  if (!connection) return connection;
+  auto inspected = inspect(*connection, latest);
+  if (!inspected && inspected.error().kind == ErrorKind::kCannotOpen && !has_write_ahead_log(path)) {
+    connection = sqlite::Connection::open(path, sqlite::OpenMode::kImmutable);
+    if (!connection) return connection;
+    inspected = inspect(*connection, latest);
+  }
+  if (!inspected) return Unexpected{inspected.error()};
+  state = *inspected;
+  return connection;
+}
+
+}  // namespace
+
+fs::path database_path(const std::optional<std::string>& option) {
+  if (option) return *option;
+  const char* environment = std::getenv("SIPPLAB_DB");
+  if (environment != nullptr && *environment != '\0') return environment;
+  return "sipplab.db";
+}
+
+Database::Database(sqlite::Connection connection, fs::path path)
+    : connection_(std::move(connection)), path_(std::move(path)) {}
+
+int Database::latest_schema_version() { return migrations().back().version; }
+
+Result<Database> Database::open(const fs::path& path) {
+  if (auto error = find_path_error(path, false)) return Unexpected{*error};
+  auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite);
+  if (!connection) return Unexpected{connection.error()};
+  const auto state = inspect(*connection, latest_schema_version());
+  if (!state) return Unexpected{state.error()};
+  if (auto done = configure_for_writing(*connection); !done) return Unexpected{done.error()};
+  if (auto done = migrate(*connection, migrations()); !done) return Unexpected{done.error()};
+  return Database{std::move(*connection), path};
+}
+
+Result<Database> Database::open_read_only(const fs::path& path) {
+  if (auto error = find_path_error(path, true)) return Unexpected{*error};
+  SchemaState state;
+  auto connection = open_for_reading(path, latest_schema_version(), state);
+  if (!connection) return Unexpected{connection.error()};
+  if (state.fresh) {
+    return Unexpected{Error{
+        ErrorKind::kNotADatabase,
+        fmt::format("{}: an empty file, expected a history; `sipplab bench` makes one", path.string())}};
+  }
+  if (state.version < latest_schema_version()) {
+    if (auto migrated = open(path); !migrated) return Unexpected{migrated.error()};
+    connection = open_for_reading(path, latest_schema_version(), state);
+    if (!connection) return Unexpected{connection.error()};
+  }
+  return Database{std::move(*connection), path};
+}
+
+}  // namespace sipplab::db

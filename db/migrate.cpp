@@ -1,0 +1,75 @@
+// Schema inspection and migration.
+#include "db/migrate.hpp"
+
+#include <fmt/core.h>
+
+#include "db/sqlite/statement.hpp"
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+constexpr std::string_view kReadingHeader = "reading its schema version";
+
+Error not_ours(const sqlite::Connection& connection) {
+  return {ErrorKind::kNotADatabase,
+          fmt::format("{}: a database of another program, expected a sipplab history", connection.name())};
+}
+
+Error newer(const sqlite::Connection& connection, std::int64_t version, int latest) {
+  return {ErrorKind::kNewerSchema,
+          fmt::format("{}: schema version {}, expected at most {}: a newer sipplab wrote "
+                      "it",
+                      connection.name(), version, latest)};
+}
+
+Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  // Another process may have been faster.
+  const auto version = connection.query_int("PRAGMA user_version", kReadingHeader);
+  if (!version) return Unexpected{version.error()};
+  if (*version >= step.version) return Done{};
+
+  const std::string doing = fmt::format("applying migration {}", step.name);
+  if (auto done = connection.execute(std::string{step.sql}, doing); !done) return done;
+  const std::string header =
+      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, step.version);
+  if (auto done = connection.execute(header, doing); !done) return done;
+  return transaction->commit();
+}
+
+}  // namespace
+
+Result<SchemaState> inspect(sqlite::Connection& connection, int latest) {
+  // One statement, so that a schema made by another process meanwhile is seen whole.
+  auto header = sqlite::Statement::prepare(connection,
+                                           "SELECT application_id, user_version, "
+                                           "(SELECT count(*) FROM sqlite_schema) "
+                                           "FROM pragma_application_id, pragma_user_version",
+                                           kReadingHeader);
+  if (!header) return Unexpected{header.error()};
+  if (const auto row = header->step(); !row) return Unexpected{row.error()};
+  const std::int64_t application = header->integer(0);
+  const std::int64_t version = header->integer(1);
+  const std::int64_t objects = header->integer(2);
+
+  SchemaState state;
+  state.fresh = application == 0 && version == 0 && objects == 0;
+  if (!state.fresh && (application != kApplicationId || version < 1)) return Unexpected{not_ours(connection)};
+  if (version > latest) return Unexpected{newer(connection, version, latest)};
+  state.version = static_cast<int>(version);
+  return state;
+}
+
+Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> steps) {
+  const auto version = connection.query_int("PRAGMA user_version", kReadingHeader);
+  if (!version) return Unexpected{version.error()};
+  for (const Migration& step : steps) {
+    if (step.version <= *version) continue;
+    if (auto done = apply(connection, step); !done) return done;
+  }
+  return Done{};
+}
+
+}  // namespace sipplab::db

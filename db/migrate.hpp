@@ -1,0 +1,42 @@
+// Brings a history to the schema of this program, one numbered step at a time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "db/error.hpp"
+#include "db/sqlite/connection.hpp"
+
+namespace sipplab::db {
+
+/// Stands in the file's header (PRAGMA application_id) and tells a history from the
+/// databases of other programs: "SIPP" in ASCII.
+inline constexpr std::int64_t kApplicationId = 0x53495050;
+
+/// One file of db/migrations, embedded at build time.
+struct Migration {
+  int version;  ///< user_version after it
+  std::string_view name;
+  std::string_view sql;
+};
+
+/// All of them, by version from 1 without gaps.
+std::span<const Migration> migrations();
+
+/// What the header of a file says, before anything is changed.
+struct SchemaState {
+  bool fresh = false;  ///< empty file, nothing in it yet
+  int version = 0;
+};
+
+/// Reads the header. An error when the file is no database, belongs to another
+/// program, or has a schema newer than `latest`.
+Result<SchemaState> inspect(sqlite::Connection& connection, int latest);
+
+/// Applies the steps that are missing, each in a transaction of its own that also
+/// sets user_version. Does nothing on a file that is up to date. Safe when several
+/// processes do it at once.
+Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> steps);
+
+}  // namespace sipplab::db

@@ -1,0 +1,103 @@
+// What `sipplab runs`, `show` and `sql` ask of a history, and their answers as text.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "db/database.hpp"
+#include "db/error.hpp"
+#include "db/table.hpp"
+
+namespace sipplab::db {
+
+/// One row of v_runs.
+struct RunSummary {
+  std::string uuid;
+  std::string suite;
+  std::string status;  ///< "running", "finished", "aborted"
+  std::string started_utc;
+  std::optional<std::string> ended_utc;
+  std::optional<std::string> commit_hash;
+  std::optional<std::string> commit_subject;
+  std::string branch;
+  bool dirty = false;
+  std::string host;
+  std::string cpu_model;
+  std::string compiler;  ///< with its version
+  std::string build_type;
+  std::string command_line;
+  std::int64_t cases = 0;
+  std::int64_t results = 0;
+  std::int64_t solved = 0;
+  std::int64_t invalid = 0;
+  std::optional<std::string> excluded_reason;
+};
+
+/// One row of v_run_cells: all instances of one case in one run. Rates are 0..1;
+/// makespan and flowtime are over solved instances, and absent when there is none.
+struct CellSummary {
+  std::string environment;
+  std::int64_t robots = 0;
+  double ssi_s = 0;
+  std::string reschedule;
+  std::string order;
+  std::string planner;
+  bool any_angle = true;
+  std::int64_t connectedness = 0;
+  std::int64_t results = 0;
+  std::int64_t solved = 0;
+  std::int64_t limited = 0;
+  std::int64_t invalid = 0;
+  std::optional<double> success_rate;
+  std::optional<double> mean_planning_time_s;  ///< over all results, limits included
+  std::optional<double> median_planning_time_s;
+  std::optional<double> mean_makespan_s;
+  std::optional<double> median_makespan_s;
+  std::optional<double> mean_flowtime_s;
+  std::optional<double> median_flowtime_s;
+  std::optional<double> mean_tries;
+  std::optional<double> mean_expansions;
+};
+
+struct RunReport {
+  RunSummary run;
+  std::vector<CellSummary> cells;  ///< by environment, re-scheduling, SSI, robots
+};
+
+struct RunFilter {
+  std::optional<std::string> suite;
+  bool include_excluded = false;
+  std::size_t limit = 20;  ///< newest runs; 0 for all
+};
+
+/// Runs, newest first.
+Result<std::vector<RunSummary>> list_runs(Database& database, const RunFilter& filter = {});
+
+/// The UUID of the run that `text` names: "latest" (newest run that is not excluded), a
+/// UUID, or a beginning of one, at least four digits long, that fits one run only.
+Result<std::string> resolve_run(Database& database, std::string_view text);
+
+/// Everything that `sipplab show RUN` prints.
+Result<RunReport> show_run(Database& database, std::string_view run);
+
+/// Leaves a run out of comparisons and trends, with a reason; nothing is deleted.
+Result<Done> exclude_run(Database& database, std::string_view run, const std::string& reason);
+/// Takes an exclusion back.
+Result<Done> include_run(Database& database, std::string_view run);
+
+/// Runs one statement that only reads. The file is opened read-only; writing,
+/// ATTACH, PRAGMAs that set anything, and a second statement are refused with one line.
+/// The aggregates of statistics/sqlite_functions.hpp are there.
+Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql);
+
+/// Text for a person (rounded), or exact values as CSV or JSON. JSON of a run
+/// report is one object: {"run": {...}, "cells": [{...}, ...]}.
+std::string format_runs(const std::vector<RunSummary>& runs, OutputFormat format);
+std::string format_run_report(const RunReport& report, OutputFormat format);
+
+}  // namespace sipplab::db

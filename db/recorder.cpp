@@ -1,0 +1,272 @@
+// One run, one transaction per case.
+#include "db/recorder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "db/identity.hpp"
+#include "db/rows.hpp"
+#include "db/sqlite/statement.hpp"
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using sqlite::Statement;
+using sqlite::Transaction;
+
+Error bad_input(const Database& database, std::string what) {
+  return {ErrorKind::kBadInput, fmt::format("{}: {}", database.path().string(), what)};
+}
+
+// SQLite would store a NaN as NULL without a word.
+bool has_nan(const ResultRow& row) {
+  const auto is_nan = [](const std::optional<double>& value) { return value && std::isnan(*value); };
+  return is_nan(row.makespan_s) || is_nan(row.flowtime_s) || is_nan(row.min_clearance_cells);
+}
+
+std::optional<std::string> null_if_empty(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+Result<Done> insert_run(Database& database, const RunInfo& info, const std::string& uuid) {
+  auto& connection = database.connection();
+  std::optional<std::int64_t> commit;
+  if (info.commit) {
+    const auto id = commit_id(connection, *info.commit);
+    if (!id) return Unexpected{id.error()};
+    commit = *id;
+  }
+  const auto machine = machine_id(connection, info.machine);
+  if (!machine) return Unexpected{machine.error()};
+  const auto build = build_id(connection, info.build);
+  if (!build) return Unexpected{build.error()};
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT INTO run (uuid, suite, started_utc, status, commit_id, machine_id, build_id, branch, "
+      "command_line, "
+      "options, seed, time_limit_s, writer) VALUES (?, ?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "writing the run");
+  if (!insert) return Unexpected{insert.error()};
+  return insert
+      ->bind(uuid, info.suite, utc_now(), commit, *machine, *build, info.branch, info.command_line,
+             info.options, to_bits(info.seed), info.time_limit_s, this_process())
+      .run();
+}
+
+}  // namespace
+
+Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info) {
+  auto select = Statement::prepare(
+      database.connection(),
+      "SELECT run.uuid, run.started_utc, run.status, run.writer, "
+      "  (SELECT count(*) FROM cell WHERE cell.run_id = run.id) "
+      "FROM run JOIN machine ON machine.id = run.machine_id JOIN build ON build.id = run.build_id "
+      "WHERE run.suite = ? AND run.options = ? AND run.status <> 'finished' AND run.excluded_reason IS NULL "
+      "  AND run.origin = '' AND machine.fingerprint = ? "
+      "  AND build.binary_hash = ? AND build.compiler = ? AND build.compiler_version = ? AND build.flags = ? "
+      "  AND build.build_type = ? AND build.assertions = ? AND build.sanitizers = ? AND build.dirty = ? "
+      "ORDER BY run.started_utc DESC, run.id DESC",
+      "looking for a run to resume");
+  if (!select) return Unexpected{select.error()};
+  const BuildInfo& build = info.build;
+  select->bind(info.suite, info.options, fingerprint(info.machine), build.binary_hash, build.compiler,
+               build.compiler_version, build.flags, build.build_type, build.assertions, build.sanitizers,
+               build.dirty);
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return std::optional<ResumableRun>{};
+    const bool running = select->text(2) == name(RunStatus::kRunning);
+    if (running && is_alive(select->text(3))) continue;
+    ResumableRun run;
+    run.uuid = select->text(0);
+    run.started_utc = select->text(1);
+    run.status = running ? RunStatus::kRunning : RunStatus::kAborted;
+    run.finished_cases = static_cast<std::size_t>(select->integer(4));
+    return std::optional<ResumableRun>{run};
+  }
+}
+
+Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::string& run_uuid) {
+  auto select = Statement::prepare(database.connection(),
+                                   fmt::format("SELECT {} FROM run JOIN cell ON cell.run_id = run.id "
+                                               "JOIN case_ ON case_.id = cell.case_id "
+                                               "WHERE run.uuid = ? ORDER BY cell.id",
+                                               kCaseColumns),
+                                   "reading finished cases");
+  if (!select) return Unexpected{select.error()};
+  select->bind(run_uuid);
+  std::vector<CaseInfo> cases;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return cases;
+    cases.push_back(read_case(*select, 0));
+  }
+}
+
+RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t run_id)
+    : database_(std::move(database)), run_uuid_(std::move(run_uuid)), run_id_(run_id) {}
+
+Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
+  auto transaction = Transaction::begin(database.connection());
+  if (!transaction) return Unexpected{transaction.error()};
+  const std::string uuid = new_uuid();
+  if (auto done = insert_run(database, info, uuid); !done) return Unexpected{done.error()};
+  const std::int64_t id = database.connection().last_insert_rowid();
+  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  return RunRecorder{std::move(database), uuid, id};
+}
+
+Result<RunRecorder> RunRecorder::resume(Database database, const std::string& run_uuid) {
+  auto transaction = Transaction::begin(database.connection());
+  if (!transaction) return Unexpected{transaction.error()};
+  std::int64_t id = 0;
+  {
+    auto select = Statement::prepare(database.connection(),
+                                     "SELECT id, status, writer, excluded_reason FROM run WHERE uuid = ?",
+                                     "reading the run to resume");
+    if (!select) return Unexpected{select.error()};
+    const auto row = select->bind(run_uuid).step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) {
+      return Unexpected{Error{ErrorKind::kNotFound, fmt::format("{}: no run {}, expected one to resume",
+                                                                database.path().string(), run_uuid)}};
+    }
+    const std::string status = select->text(1);
+    const std::string writer = select->text(2);
+    if (status == name(RunStatus::kFinished) || !select->is_null(3)) {
+      return Unexpected{
+          bad_input(database, fmt::format("run {} is {}, expected one that ended early", run_uuid,
+                                          select->is_null(3) ? "finished" : "excluded"))};
+    }
+    if (status == name(RunStatus::kRunning) && writer != this_process() && is_alive(writer)) {
+      return Unexpected{bad_input(
+          database, fmt::format("run {} is being written, expected its process to have ended", run_uuid))};
+    }
+    id = select->integer(0);
+  }
+  auto update = Statement::prepare(
+      database.connection(), "UPDATE run SET status = 'running', ended_utc = NULL, writer = ? WHERE id = ?",
+      "taking up the run");
+  if (!update) return Unexpected{update.error()};
+  if (auto done = update->bind(this_process(), id).run(); !done) return Unexpected{done.error()};
+  auto finished = finished_cases(database, run_uuid);
+  if (!finished) return Unexpected{finished.error()};
+  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+
+  RunRecorder recorder{std::move(database), run_uuid, id};
+  recorder.finished_ = std::move(*finished);
+  return recorder;
+}
+
+bool RunRecorder::is_finished(const CaseInfo& parameters) const {
+  return std::find(finished_.begin(), finished_.end(), parameters) != finished_.end();
+}
+
+void RunRecorder::add(const CaseInfo& parameters, const InstanceInfo& instance, const ResultRow& row) {
+  auto found = std::find_if(buffered_.begin(), buffered_.end(),
+                            [&](const BufferedCase& buffered) { return buffered.first == parameters; });
+  if (found == buffered_.end()) found = buffered_.insert(found, BufferedCase{parameters, {}});
+  found->second.push_back({instance, row});
+}
+
+void RunRecorder::discard_case(const CaseInfo& parameters) {
+  std::erase_if(buffered_, [&](const BufferedCase& buffered) { return buffered.first == parameters; });
+}
+
+Result<Done> RunRecorder::commit_case(const CaseInfo& parameters) {
+  const auto found = std::find_if(buffered_.begin(), buffered_.end(),
+                                  [&](const BufferedCase& buffered) { return buffered.first == parameters; });
+  const std::vector<BufferedResult> none;
+  auto done = write_case(parameters, found == buffered_.end() ? none : found->second);
+  if (!done) return done;
+  discard_case(parameters);
+  finished_.push_back(parameters);
+  return Done{};
+}
+
+Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vector<BufferedResult>& results) {
+  if (is_finished(parameters)) {
+    return Unexpected{bad_input(database_, fmt::format("run {} holds this case already", run_uuid_))};
+  }
+  if (std::isnan(parameters.ssi_s) ||
+      std::any_of(results.begin(), results.end(), [](const auto& result) { return has_nan(result.row); })) {
+    return Unexpected{bad_input(database_, "NaN in a result, expected a number")};
+  }
+  auto& connection = database_.connection();
+  auto transaction = Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  if (auto done = check_writer(); !done) return done;
+  const auto case_key = case_id(connection, parameters);
+  if (!case_key) return Unexpected{case_key.error()};
+  auto insert = Statement::prepare(
+      connection, "INSERT INTO cell (run_id, case_id, finished_utc, result_count) VALUES (?, ?, ?, ?)",
+      "writing a finished case");
+  if (!insert) return Unexpected{insert.error()};
+  insert->bind(run_id_, *case_key, utc_now(), static_cast<std::int64_t>(results.size()));
+  if (auto done = insert->run(); !done) return done;
+  if (auto done = write_results(connection.last_insert_rowid(), results); !done) return done;
+  return transaction->commit();
+}
+
+Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results) {
+  auto insert = Statement::prepare(
+      database_.connection(),
+      "INSERT INTO result (cell_id, instance_id, repetition, status, planning_time_ns, makespan_s, "
+      "flowtime_s, "
+      "tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, "
+      "limit_struck, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "writing the results of a case");
+  if (!insert) return Unexpected{insert.error()};
+  auto keys = InstanceKeys::prepare(database_.connection());
+  if (!keys) return Unexpected{keys.error()};
+  for (const auto& [instance, row] : results) {
+    const auto instance_key = keys->key(instance);
+    if (!instance_key) return Unexpected{instance_key.error()};
+    std::optional<std::int64_t> plan_hash;
+    if (row.plan_hash) plan_hash = to_bits(*row.plan_hash);
+    insert->bind(cell_id, *instance_key, row.repetition, static_cast<int>(row.status), row.planning_time_ns,
+                 row.makespan_s, row.flowtime_s, to_count(row.tries), to_count(row.expansions),
+                 to_count(row.generations), plan_hash, row.valid, row.violations, row.min_clearance_cells,
+                 row.peak_memory_bytes, null_if_empty(row.limit), null_if_empty(row.message));
+    if (auto done = insert->run(); !done) return done;
+  }
+  return Done{};
+}
+
+Result<Done> RunRecorder::check_writer() {
+  auto select = Statement::prepare(database_.connection(), "SELECT writer FROM run WHERE id = ? AND uuid = ?",
+                                   "checking that the run is still ours");
+  if (!select) return Unexpected{select.error()};
+  const auto row = select->bind(run_id_, run_uuid_).step();
+  if (!row) return Unexpected{row.error()};
+  if (!row.value() || select->text(0) != this_process()) {
+    return Unexpected{bad_input(
+        database_,
+        fmt::format("run {} was taken over by another process, expected to be its writer", run_uuid_))};
+  }
+  return Done{};
+}
+
+Result<Done> RunRecorder::finish(RunStatus status) {
+  if (status == RunStatus::kRunning) {
+    return Unexpected{bad_input(database_, "a run cannot end as running, expected finished or aborted")};
+  }
+  auto transaction = Transaction::begin(database_.connection());
+  if (!transaction) return Unexpected{transaction.error()};
+  if (auto done = check_writer(); !done) return done;
+  auto update = Statement::prepare(
+      database_.connection(), "UPDATE run SET status = ?, ended_utc = ? WHERE id = ?", "closing the run");
+  if (!update) return Unexpected{update.error()};
+  if (auto done = update->bind(std::string{name(status)}, utc_now(), run_id_).run(); !done) return done;
+  buffered_.clear();
+  return transaction->commit();
+}
+
+}  // namespace sipplab::db

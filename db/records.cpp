@@ -1,0 +1,49 @@
+// Names of states, and the fingerprint of a machine.
+#include "db/records.hpp"
+
+#include <fmt/core.h>
+
+namespace sipplab::db {
+
+std::string fingerprint(const MachineInfo& machine) {
+  // FNV-1a, 64 bits: the fields are few and nobody attacks them. The separator keeps
+  // neighbouring fields apart.
+  constexpr std::uint64_t kOffsetBasis = 14695981039346656037ULL;
+  constexpr std::uint64_t kPrime = 1099511628211ULL;
+  const std::string text = fmt::format("{}\n{}\n{}\n{}\n{}", machine.host, machine.cpu_model, machine.cores,
+                                       machine.memory_bytes, machine.kernel);
+  std::uint64_t hash = kOffsetBasis;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= kPrime;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string_view name(ResultStatus status) {
+  switch (status) {
+    case ResultStatus::kSolved:
+      return "solved";
+    case ResultStatus::kFailed:
+      return "failed";
+    case ResultStatus::kLimit:
+      return "limit";
+    case ResultStatus::kInvalid:
+      return "invalid";
+  }
+  return "";
+}
+
+std::string_view name(RunStatus status) {
+  switch (status) {
+    case RunStatus::kRunning:
+      return "running";
+    case RunStatus::kFinished:
+      return "finished";
+    case RunStatus::kAborted:
+      return "aborted";
+  }
+  return "";
+}
+
+}  // namespace sipplab::db

@@ -1,0 +1,142 @@
+// The rows of the history, as plain values. Names and units are those of the SQL
+// columns; schema.md explains each.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sipplab::db {
+
+/// A count that sets no limit: larger than any count, so that comparisons need no
+/// special case. Larger values are stored as this one.
+inline constexpr std::uint64_t kNoCountLimit = INT64_MAX;
+inline constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
+
+/// A commit of the source tree. History is ordered by `ancestor_count`: an ancestor
+/// always has fewer, whenever its results were uploaded.
+struct CommitInfo {
+  std::string hash;           ///< full hexadecimal object name
+  std::string committed_utc;  ///< "2026-01-31T12:00:00Z"
+  std::string subject;
+  std::string first_parent;  ///< hash; empty for a root commit
+  /// `git rev-list --count HASH`, the commit itself included; 0 where it is not
+  /// known (shallow clone).
+  std::int64_t ancestor_count = 0;
+  /// `git rev-list --count --first-parent HASH`; 0 where it is not known.
+  std::int64_t first_parent_count = 0;
+};
+
+/// A host in one condition: another kernel or more memory makes another machine.
+struct MachineInfo {
+  std::string host;
+  std::string cpu_model;
+  std::int64_t cores = 0;         ///< logical processors
+  std::int64_t memory_bytes = 0;  ///< physical memory
+  std::string kernel;             ///< system name and release, as uname prints them
+};
+
+/// Identifies a machine: 16 hexadecimal digits made of all its fields.
+std::string fingerprint(const MachineInfo& machine);
+
+struct BuildInfo {
+  std::string compiler;  ///< "gcc", "clang"
+  std::string compiler_version;
+  std::string flags;
+  std::string build_type;   ///< "Release", ...
+  bool assertions = false;  ///< invariants are checked at run time
+  std::string sanitizers;   ///< "address,undefined"; empty for none
+  std::string binary_hash;  ///< of the program that ran, hexadecimal
+  bool dirty = false;       ///< built from a tree with uncommitted changes
+};
+
+/// One start of a sweep.
+struct RunInfo {
+  std::string suite;
+  std::string branch;  ///< as checked out; empty where there is none
+  std::string command_line;
+  /// What must agree, besides suite, build and machine, for a run to be resumed:
+  /// a canonical text of the options that change results, such as
+  /// "count=50 seed=1 repetitions=1 instances=generated".
+  std::string options;
+  std::uint64_t seed = 0;
+  double time_limit_s = kNoTimeLimit;  ///< wall clock, per instance
+  std::optional<CommitInfo> commit;    ///< none outside a checkout
+  MachineInfo machine;
+  BuildInfo build;
+};
+
+/// The parameters of a benchmark case: all of them, so that two cases are the same
+/// exactly when all fields are equal.
+struct CaseInfo {
+  std::string environment;   ///< "empty", "warehouse", "random", or a name for files
+  std::string map_spec;      ///< "empty:32x32", "warehouse", "random:32x32:0.2", or a file
+  std::string instance_set;  ///< where instances come from: "generated/seed:1", or a folder
+  std::int64_t robots = 0;
+  double ssi_s = 0;        ///< start-safe interval, may be infinite
+  std::string planner;     ///< "aa-sipp", "sipp"
+  std::string order;       ///< initial order: "fifo", "shortest", "longest", "random"
+  std::string reschedule;  ///< "none", "deterministic", "random"
+  bool any_angle = true;
+  std::int64_t connectedness = 2;  ///< 2^k neighbours
+  double radius_cells = 0.5;       ///< 0: mixed, as each instance says
+  double speed_cells_per_s = 1;    ///< 0: mixed, as each instance says
+  double time_limit_s = kNoTimeLimit;
+  std::uint64_t max_expansions = kNoCountLimit;
+  std::uint64_t max_restarts = kNoCountLimit;
+  std::uint64_t seed = 0;  ///< of the planner
+
+  friend bool operator==(const CaseInfo&, const CaseInfo&) = default;
+};
+
+/// A planning problem, identified by its content.
+struct InstanceInfo {
+  std::string content_hash;  ///< hexadecimal; equal content, equal hash
+  std::string map_hash;      ///< hexadecimal
+  std::string name;          ///< file name, or generator spec with seed and index
+  std::int64_t robots = 0;
+  std::int64_t width_cells = 0;
+  std::int64_t height_cells = 0;
+  std::int64_t blocked_cells = 0;
+};
+
+enum class ResultStatus {
+  kSolved,
+  kFailed,   ///< the method ended without a solution
+  kLimit,    ///< censored: a limit ended it first
+  kInvalid,  ///< a plan that the validator rejected
+};
+/// "solved", "failed", "limit", "invalid".
+std::string_view name(ResultStatus status);
+
+/// What one planning of one instance gave.
+struct ResultRow {
+  std::int64_t repetition = 0;  ///< counted from 0
+  ResultStatus status = ResultStatus::kFailed;
+  std::int64_t planning_time_ns = 0;  ///< wall clock, planning alone
+  std::optional<double> makespan_s;   ///< solved and invalid plans only
+  std::optional<double> flowtime_s;
+  std::uint64_t tries = 0;
+  std::uint64_t expansions = 0;
+  std::uint64_t generations = 0;
+  std::optional<std::uint64_t> plan_hash;
+  /// The validator's verdict; none where there was no plan to check.
+  std::optional<bool> valid;
+  std::int64_t violations = 0;
+  std::optional<double> min_clearance_cells;  ///< may be infinite (one robot)
+  std::optional<std::int64_t> peak_memory_bytes;
+  std::string limit;    ///< which limit struck: "time", "expansions", "restarts"; else empty
+  std::string message;  ///< the first violation in words; else empty
+};
+
+enum class RunStatus {
+  kRunning,   ///< under way, or killed
+  kFinished,  ///< everything that was asked for is there
+  kAborted,   ///< ended early by its user or by an error
+};
+/// "running", "finished", "aborted".
+std::string_view name(RunStatus status);
+
+}  // namespace sipplab::db

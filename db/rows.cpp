@@ -1,0 +1,122 @@
+// Insert a row or find it: one statement each, which ends in the row's key.
+#include "db/rows.hpp"
+
+#include <algorithm>
+
+namespace sipplab::db {
+namespace {
+
+// RETURNING answers for a row that was there only when the conflict changes it, so
+// each statement sets a column to what it is.
+template <class... Values>
+Result<std::int64_t> upsert(sqlite::Connection& connection, std::string_view sql, std::string_view doing,
+                            const Values&... values) {
+  auto statement = sqlite::Statement::prepare(connection, sql, doing);
+  if (!statement) return Unexpected{statement.error()};
+  const auto row = statement->bind(values...).step();
+  if (!row) return Unexpected{row.error()};
+  const std::int64_t id = statement->integer(0);
+  if (auto done = statement->run(); !done) return Unexpected{done.error()};
+  return id;
+}
+
+}  // namespace
+
+std::int64_t to_count(std::uint64_t value) {
+  return static_cast<std::int64_t>(std::min(value, kNoCountLimit));
+}
+
+std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit) {
+  // A shallow clone does not know the counts; whoever knows them fills them in.
+  return upsert(connection,
+                "INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, "
+                "first_parent_count) VALUES (?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT (hash) DO UPDATE SET "
+                "ancestor_count = max(ancestor_count, excluded.ancestor_count), "
+                "first_parent_count = max(first_parent_count, excluded.first_parent_count) RETURNING id",
+                "writing a commit", commit.hash, commit.committed_utc, commit.subject, commit.first_parent,
+                commit.ancestor_count, commit.first_parent_count);
+}
+
+Result<std::int64_t> machine_id(sqlite::Connection& connection, const MachineInfo& machine) {
+  return upsert(connection,
+                "INSERT INTO machine (fingerprint, host, cpu_model, cores, memory_bytes, kernel) "
+                "VALUES (?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT (fingerprint) DO UPDATE SET host = host RETURNING id",
+                "writing a machine", fingerprint(machine), machine.host, machine.cpu_model, machine.cores,
+                machine.memory_bytes, machine.kernel);
+}
+
+Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& build) {
+  return upsert(connection,
+                "INSERT INTO build (compiler, compiler_version, flags, build_type, assertions, sanitizers, "
+                "binary_hash, dirty) VALUES (?, ?, ?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT DO UPDATE SET dirty = dirty RETURNING id",
+                "writing a build", build.compiler, build.compiler_version, build.flags, build.build_type,
+                build.assertions, build.sanitizers, build.binary_hash, build.dirty);
+}
+
+Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
+  return upsert(
+      connection,
+      "INSERT INTO case_ (environment, map_spec, instance_set, robots, ssi_s, planner, initial_order, "
+      "reschedule, any_angle, connectedness, radius_cells, speed_cells_per_s, time_limit_s, "
+      "max_expansions, max_restarts, seed) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) "
+      "ON CONFLICT DO UPDATE SET seed = seed RETURNING id",
+      "writing a case", parameters.environment, parameters.map_spec, parameters.instance_set,
+      parameters.robots, parameters.ssi_s, parameters.planner, parameters.order, parameters.reschedule,
+      parameters.any_angle, parameters.connectedness, parameters.radius_cells, parameters.speed_cells_per_s,
+      parameters.time_limit_s, to_count(parameters.max_expansions), to_count(parameters.max_restarts),
+      to_bits(parameters.seed));
+}
+
+Result<InstanceKeys> InstanceKeys::prepare(sqlite::Connection& connection) {
+  auto select = sqlite::Statement::prepare(connection, "SELECT id FROM instance WHERE content_hash = ?",
+                                           "looking up an instance");
+  if (!select) return Unexpected{select.error()};
+  auto insert =
+      sqlite::Statement::prepare(connection,
+                                 "INSERT INTO instance (content_hash, map_hash, name, robots, "
+                                 "width_cells, height_cells, blocked_cells) VALUES (?, ?, ?, ?, ?, ?, ?)",
+                                 "writing an instance");
+  if (!insert) return Unexpected{insert.error()};
+  return InstanceKeys{&connection, std::move(*select), std::move(*insert)};
+}
+
+Result<std::int64_t> InstanceKeys::key(const InstanceInfo& instance) {
+  const auto row = select_.bind(instance.content_hash).step();
+  if (!row) return Unexpected{row.error()};
+  const std::int64_t known = row.value() ? select_.integer(0) : 0;
+  select_.reset();
+  if (row.value()) return known;
+  insert_.bind(instance.content_hash, instance.map_hash, instance.name, instance.robots, instance.width_cells,
+               instance.height_cells, instance.blocked_cells);
+  if (auto done = insert_.run(); !done) return Unexpected{done.error()};
+  return connection_->last_insert_rowid();
+}
+
+CaseInfo read_case(const sqlite::Statement& row, int column) {
+  CaseInfo parameters;
+  parameters.environment = row.text(column++);
+  parameters.map_spec = row.text(column++);
+  parameters.instance_set = row.text(column++);
+  parameters.robots = row.integer(column++);
+  parameters.ssi_s = row.real(column++);
+  parameters.planner = row.text(column++);
+  parameters.order = row.text(column++);
+  parameters.reschedule = row.text(column++);
+  parameters.any_angle = row.integer(column++) != 0;
+  parameters.connectedness = row.integer(column++);
+  parameters.radius_cells = row.real(column++);
+  parameters.speed_cells_per_s = row.real(column++);
+  parameters.time_limit_s = row.real(column++);
+  parameters.max_expansions = static_cast<std::uint64_t>(row.integer(column++));
+  parameters.max_restarts = static_cast<std::uint64_t>(row.integer(column++));
+  parameters.seed = static_cast<std::uint64_t>(row.integer(column));
+  return parameters;
+}
+
+}  // namespace sipplab::db

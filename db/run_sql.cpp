@@ -1,0 +1,193 @@
+// One statement that reads, guarded three times: the file is open read-only, an
+// authorizer refuses whatever is not reading, and query_only stands behind both.
+#include <fmt/core.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "db/queries.hpp"
+#include "db/sqlite/handle.hpp"
+#include "db/statistics/sqlite_functions.hpp"
+
+namespace sipplab::db {
+namespace {
+
+struct Finalize {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using StatementPtr = std::unique_ptr<sqlite3_stmt, Finalize>;
+
+/// PRAGMAs that tell something; their argument says about what.
+constexpr std::array<std::string_view, 10> kTelling{
+    "collation_list", "foreign_key_check", "foreign_key_list", "index_info", "index_list",
+    "index_xinfo",    "integrity_check",   "quick_check",      "table_info", "table_xinfo"};
+/// PRAGMAs whose argument would set something.
+constexpr std::array<std::string_view, 12> kTellingWithoutArgument{
+    "application_id", "compile_options", "database_list", "encoding",       "freelist_count", "function_list",
+    "journal_mode",   "page_count",      "page_size",     "schema_version", "table_list",     "user_version"};
+
+bool is_telling_pragma(std::string_view pragma, const char* argument) {
+  const auto has = [&](const auto& list) {
+    return std::find(list.begin(), list.end(), pragma) != list.end();
+  };
+  return has(kTelling) || (argument == nullptr && has(kTellingWithoutArgument));
+}
+
+/// What the refused part of a statement would do, in a word or two.
+std::string_view action_name(int action) {
+  switch (action) {
+    case SQLITE_INSERT:
+      return "INSERT";
+    case SQLITE_UPDATE:
+      return "UPDATE";
+    case SQLITE_DELETE:
+      return "DELETE";
+    case SQLITE_ATTACH:
+      return "ATTACH";
+    case SQLITE_DETACH:
+      return "DETACH";
+    case SQLITE_TRANSACTION:
+    case SQLITE_SAVEPOINT:
+      return "a transaction";
+    case SQLITE_PRAGMA:
+      return "a PRAGMA that sets something";
+    case SQLITE_FUNCTION:
+      return "loading an extension";
+    case SQLITE_REINDEX:
+    case SQLITE_ANALYZE:
+      return "REINDEX or ANALYZE";
+    default:
+      return "CREATE, ALTER or DROP";
+  }
+}
+
+/// Context: a std::string that receives the name of what is refused.
+int allow_reading(void* refused, int action, const char* first, const char* second, const char*,
+                  const char*) {
+  bool allowed = false;
+  switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_READ:
+    case SQLITE_RECURSIVE:
+      allowed = true;
+      break;
+    case SQLITE_FUNCTION:
+      allowed = second == nullptr || std::string_view{second} != "load_extension";
+      break;
+    case SQLITE_PRAGMA:
+      allowed = first != nullptr && is_telling_pragma(first, second);
+      break;
+    case SQLITE_UPDATE:
+      // SQLite says this while it declares the columns of pragma_table_list, json_each
+      // and their like. A real UPDATE of the schema is refused by SQLite itself.
+      allowed = first != nullptr && std::string_view{first} == "sqlite_master";
+      break;
+    default:
+      break;
+  }
+  if (allowed) return SQLITE_OK;
+  auto* name = static_cast<std::string*>(refused);
+  if (name->empty()) *name = action_name(action);
+  return SQLITE_DENY;
+}
+
+Error bad_query(const std::string& file, std::string_view what) {
+  return {ErrorKind::kBadQuery, fmt::format("{}: {}", file, what)};
+}
+
+Error refusal(const std::string& file, std::string_view refused) {
+  return bad_query(
+      file, fmt::format("{} is refused, expected a statement that only reads, such as SELECT", refused));
+}
+
+/// Whether anything but blanks, comments and semicolons is left.
+bool has_statement(sqlite3* db, const char* text) {
+  while (*text != '\0') {
+    sqlite3_stmt* next = nullptr;
+    const char* tail = nullptr;
+    const int code = sqlite3_prepare_v2(db, text, -1, &next, &tail);
+    const StatementPtr owner{next};
+    if (code != SQLITE_OK || next != nullptr) return true;
+    if (tail == nullptr || tail == text) return false;
+    text = tail;
+  }
+  return false;
+}
+
+Value column_value(sqlite3_stmt* statement, int column) {
+  const auto bytes = [&](const void* data) {
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement, column));
+    return data == nullptr ? std::string{} : std::string{static_cast<const char*>(data), size};
+  };
+  switch (sqlite3_column_type(statement, column)) {
+    case SQLITE_INTEGER:
+      return static_cast<std::int64_t>(sqlite3_column_int64(statement, column));
+    case SQLITE_FLOAT:
+      return sqlite3_column_double(statement, column);
+    case SQLITE_TEXT:
+      return bytes(sqlite3_column_text(statement, column));
+    case SQLITE_BLOB:
+      return Blob{bytes(sqlite3_column_blob(statement, column))};
+    default:
+      return Null{};
+  }
+}
+
+Result<Table> read_rows(const sqlite::Handle& handle, sqlite3_stmt* statement) {
+  Table table;
+  const int count = sqlite3_column_count(statement);
+  for (int i = 0; i < count; ++i) table.columns.emplace_back(sqlite3_column_name(statement, i));
+  for (;;) {
+    const int code = sqlite3_step(statement);
+    if (code == SQLITE_DONE) return table;
+    // Such as a function that does not take its arguments: the query's fault.
+    if (code == SQLITE_ERROR) return Unexpected{bad_query(handle.name, sqlite3_errmsg(handle.db))};
+    if (code != SQLITE_ROW) return Unexpected{sqlite::describe(handle, code, "running the query")};
+    std::vector<Value> row;
+    row.reserve(table.columns.size());
+    for (int i = 0; i < count; ++i) row.push_back(column_value(statement, i));
+    table.rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql) {
+  auto database = Database::open_read_only(path);
+  if (!database) return Unexpected{database.error()};
+  auto& connection = database->connection();
+  if (auto done = connection.execute("PRAGMA query_only = ON", "preparing it for reading"); !done) {
+    return Unexpected{done.error()};
+  }
+  sqlite3* db = connection.raw();
+  if (const int code = statistics::register_functions(db); code != SQLITE_OK) {
+    return Unexpected{sqlite::describe(connection.handle(), code, "adding the statistics functions")};
+  }
+  std::string refused;
+  sqlite3_set_authorizer(db, allow_reading, &refused);
+
+  sqlite3_stmt* prepared = nullptr;
+  const char* tail = nullptr;
+  const int code = sqlite::retry_while_busy(
+      connection.handle(), [&] { return sqlite3_prepare_v2(db, sql.c_str(), -1, &prepared, &tail); });
+  const StatementPtr statement{prepared};
+  const std::string& file = connection.name();
+  if (!refused.empty()) return Unexpected{refusal(file, refused)};
+  if (code == SQLITE_ERROR) return Unexpected{bad_query(file, sqlite3_errmsg(db))};
+  if (code != SQLITE_OK) return Unexpected{sqlite::describe(connection.handle(), code, "reading the query")};
+  if (statement == nullptr) {
+    return Unexpected{bad_query(file, "an empty statement, expected one such as SELECT * FROM v_runs")};
+  }
+  if (sqlite3_stmt_readonly(statement.get()) == 0)
+    return Unexpected{refusal(file, "a statement that writes")};
+  if (has_statement(db, tail)) {
+    return Unexpected{bad_query(file, "more than one statement, expected a single one")};
+  }
+  return read_rows(connection.handle(), statement.get());
+}
+
+}  // namespace sipplab::db

@@ -1,0 +1,88 @@
+// Opening a file, and statements that need no typed rows.
+#include "db/sqlite/connection.hpp"
+
+#include <fmt/core.h>
+#include <sqlite3.h>
+
+#include "db/sqlite/handle.hpp"
+#include "db/sqlite/statement.hpp"
+
+namespace sipplab::db::sqlite {
+namespace {
+
+// SQLite reads %, ? and # in a URI as syntax.
+std::string immutable_uri(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path) {
+    if (c == '%' || c == '?' || c == '#') {
+      uri += fmt::format("%{:02x}", static_cast<unsigned>(c));
+    } else {
+      uri += c;
+    }
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+Connection::Connection(std::unique_ptr<Handle> handle) : handle_(std::move(handle)) {}
+Connection::Connection(Connection&& other) noexcept = default;
+Connection& Connection::operator=(Connection&& other) noexcept = default;
+Connection::~Connection() = default;
+
+Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode mode) {
+  auto handle = std::make_unique<Handle>(path.string());
+  int flags = SQLITE_OPEN_NOMUTEX;
+  std::string target = handle->name;
+  switch (mode) {
+    case OpenMode::kReadWrite:
+      flags |= SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+      break;
+    case OpenMode::kReadOnly:
+      flags |= SQLITE_OPEN_READONLY;
+      break;
+    case OpenMode::kImmutable:
+      flags |= SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+      target = immutable_uri(target);
+      break;
+  }
+  const int code = sqlite3_open_v2(target.c_str(), &handle->db, flags, nullptr);
+  if (code != SQLITE_OK) return Unexpected{describe(*handle, code, "opening it")};
+  sqlite3_extended_result_codes(handle->db, 1);
+  sqlite3_busy_handler(handle->db, wait_for_lock, handle.get());
+  return Connection{std::move(handle)};
+}
+
+Result<Done> Connection::execute(const std::string& sql, std::string_view doing) {
+  const int code = retry_while_busy(
+      *handle_, [&] { return sqlite3_exec(handle_->db, sql.c_str(), nullptr, nullptr, nullptr); });
+  if (code != SQLITE_OK) return Unexpected{describe(*handle_, code, doing)};
+  return Done{};
+}
+
+Result<std::int64_t> Connection::query_int(const std::string& sql, std::string_view doing) {
+  auto statement = Statement::prepare(*this, sql, doing);
+  if (!statement) return Unexpected{statement.error()};
+  const auto row = statement->step();
+  if (!row) return Unexpected{row.error()};
+  if (!row.value())
+    return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
+  return statement->integer(0);
+}
+
+Result<std::string> Connection::query_text(const std::string& sql, std::string_view doing) {
+  auto statement = Statement::prepare(*this, sql, doing);
+  if (!statement) return Unexpected{statement.error()};
+  const auto row = statement->step();
+  if (!row) return Unexpected{row.error()};
+  if (!row.value())
+    return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
+  return statement->text(0);
+}
+
+std::int64_t Connection::last_insert_rowid() const { return sqlite3_last_insert_rowid(handle_->db); }
+std::int64_t Connection::changes() const { return sqlite3_changes64(handle_->db); }
+sqlite3* Connection::raw() const { return handle_->db; }
+const std::string& Connection::name() const { return handle_->name; }
+
+}  // namespace sipplab::db::sqlite

@@ -1,0 +1,52 @@
+// What stands behind a Connection, shared with its statements: the C handle, the
+// waiting for locks, and SQLite's error codes in words.
+#pragma once
+
+#include <sqlite3.h>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "db/error.hpp"
+
+namespace sipplab::db::sqlite {
+
+struct Handle {
+  explicit Handle(std::string file_name) : name(std::move(file_name)) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { sqlite3_close_v2(db); }
+
+  sqlite3* db = nullptr;
+  std::string name;
+  std::chrono::steady_clock::time_point wait_began{};
+};
+
+/// SQLite's busy handler (context: a Handle): sleeps for a random time that grows
+/// with the number of attempts; gives up after kBusyTimeout.
+int wait_for_lock(void* handle, int attempts);
+
+/// Whether `code` says that another process is in the way.
+bool is_busy(int code);
+
+/// Calls `attempt` (which returns an SQLite code) until it is not busy or until
+/// kBusyTimeout has passed. SQLite does not ask the busy handler where waiting could
+/// be a deadlock: when several processes change a fresh file to WAL, each from a read
+/// lock; nor when they race for the first use of the log (SQLITE_PROTOCOL).
+template <class Attempt>
+int retry_while_busy(Handle& handle, Attempt attempt) {
+  const auto began = std::chrono::steady_clock::now();
+  int code = attempt();
+  for (int attempts = 0; is_busy(code); ++attempts) {
+    if (attempts == 0) handle.wait_began = began;
+    if (wait_for_lock(&handle, attempts + 1) == 0) break;
+    code = attempt();
+  }
+  return code;
+}
+
+/// `code` as one line that names the file; `doing` completes "while ...".
+Error describe(const Handle& handle, int code, std::string_view doing);
+
+}  // namespace sipplab::db::sqlite

@@ -1,0 +1,77 @@
+// A prepared statement that is finalized when it goes out of scope.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "db/error.hpp"
+#include "db/sqlite/connection.hpp"
+
+struct sqlite3_stmt;
+
+namespace sipplab::db::sqlite {
+
+/// Usage: bind, step until it says false, reset. Columns count from 0; a column is
+/// readable until the next step or reset.
+class Statement {
+ public:
+  /// `doing` completes "while ..." in the messages of this statement. The
+  /// connection must outlive it.
+  static Result<Statement> prepare(Connection& connection, std::string_view sql, std::string_view doing);
+
+  /// Binds the values to parameters ?1, ?2, ... in turn. Text is copied.
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    int index = 0;
+    (bind_one(++index, values), ...);
+    return *this;
+  }
+
+  /// True when a row is there, false at the end.
+  Result<bool> step();
+  /// Runs to the end and resets, so that the statement can be bound again.
+  Result<Done> run();
+  void reset();
+
+  bool is_null(int column) const;
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  std::optional<double> optional_real(int column) const;
+  std::optional<std::string> optional_text(int column) const;
+
+  sqlite3_stmt* raw() const { return statement_.get(); }
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  Statement(Handle* handle, sqlite3_stmt* statement, std::string doing);
+
+  void bind_one(int index, std::int64_t value);
+  void bind_one(int index, int value) { bind_one(index, static_cast<std::int64_t>(value)); }
+  void bind_one(int index, bool value) { bind_one(index, static_cast<std::int64_t>(value)); }
+  void bind_one(int index, double value);
+  void bind_one(int index, std::string_view value);
+  void bind_one(int index, const std::string& value) { bind_one(index, std::string_view{value}); }
+  void bind_one(int index, const char* value) { bind_one(index, std::string_view{value}); }
+  void bind_one(int index, std::nullopt_t);
+  template <class T>
+  void bind_one(int index, const std::optional<T>& value) {
+    if (value) {
+      bind_one(index, *value);
+    } else {
+      bind_one(index, std::nullopt);
+    }
+  }
+
+  Handle* handle_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::string doing_;
+};
+
+}  // namespace sipplab::db::sqlite

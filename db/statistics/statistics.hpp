@@ -1,0 +1,50 @@
+// Statistics of benchmark results: plain functions, no SQL. All tests are two-sided
+// and, where the sizes allow it, exact.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sipplab::db::statistics {
+
+/// The value below which the fraction `p` of the values lies, interpolated linearly
+/// between neighbours (R's type 7, NumPy's default). None for no values.
+/// REQUIRES: 0 <= p <= 1; no NaN.
+std::optional<double> quantile(std::vector<double> values, double p);
+
+/// quantile(values, 1/2).
+std::optional<double> median(std::vector<double> values);
+
+/// Mean of the logarithms, as a factor. None for no values, or for one that is not > 0.
+std::optional<double> geometric_mean(const std::vector<double>& values);
+
+/// Probability of a split at least as uneven as (wins, losses) when both are equally
+/// likely. Ties are left out by the caller. None for no pairs.
+std::optional<double> sign_test(std::uint64_t wins, std::uint64_t losses);
+
+/// McNemar's exact test: `lost` pairs were solved before only, `gained` after only;
+/// pairs that agree say nothing. 1 where none disagrees.
+double mcnemar(std::uint64_t lost, std::uint64_t gained);
+
+/// Up to this many differences the distribution of ranks is counted out; beyond, it is
+/// the normal approximation with correction for ties and continuity.
+inline constexpr std::size_t kExactWilcoxonLimit = 100;
+
+/// Wilcoxon's signed-rank test on differences of pairs. Zeros are left out, ties share
+/// their mean rank. None when no difference is left.
+/// REQUIRES: no NaN.
+std::optional<double> wilcoxon(const std::vector<double>& differences);
+
+/// One planning under a limit.
+struct TimedResult {
+  bool solved = false;
+  double time_s = 0;
+  double limit_s = 0;
+};
+
+/// Mean time where an unsolved result counts as twice its limit. None for no results.
+std::optional<double> par2(const std::vector<TimedResult>& results);
+
+}  // namespace sipplab::db::statistics

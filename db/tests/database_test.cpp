@@ -1,0 +1,173 @@
+// Opening: fresh files, old files, files that are something else.
+#include "db/database.hpp"
+
+#include <cstdlib>
+#include <fstream>
+
+#include "db/migrate.hpp"
+#include "db/tests/support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+class OpenDatabase : public test::DatabaseTest {
+ protected:
+  /// Expects that both ways of opening refuse the file and leave it as it is.
+  void expect_refused(ErrorKind kind, const std::string& words) {
+    const std::string before = test::bytes_of(file);
+    for (const auto& result : {Database::open(file), Database::open_read_only(file)}) {
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().kind, kind);
+      EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
+      EXPECT_EQ(result.error().message.find(file.string()), 0U) << result.error().message;
+      EXPECT_EQ(result.error().message.find('\n'), std::string::npos);
+    }
+    EXPECT_EQ(test::bytes_of(file), before);
+  }
+};
+
+TEST_F(OpenDatabase, a_missing_file_becomes_a_history) {
+  test::must(Database::open(file));
+  EXPECT_EQ(test::ask(file, "PRAGMA user_version"), std::to_string(Database::latest_schema_version()));
+  EXPECT_EQ(test::ask(file, "PRAGMA application_id"), std::to_string(kApplicationId));
+  EXPECT_EQ(test::ask(file, "PRAGMA journal_mode"), "wal");
+  test::expect_sound(file);
+}
+
+TEST_F(OpenDatabase, an_empty_file_becomes_a_history) {
+  std::ofstream{file};
+  test::must(Database::open(file));
+  EXPECT_EQ(test::ask(file, "SELECT count(*) FROM v_runs"), "0");
+}
+
+TEST_F(OpenDatabase, opening_twice_changes_nothing) {
+  test::must(Database::open(file));
+  const std::string schema = test::ask(file, "SELECT group_concat(sql) FROM sqlite_schema");
+  const std::string before = test::bytes_of(file);
+  test::must(Database::open(file));
+  EXPECT_EQ(test::ask(file, "SELECT group_concat(sql) FROM sqlite_schema"), schema);
+  EXPECT_EQ(test::bytes_of(file), before);
+}
+
+TEST_F(OpenDatabase, every_table_is_strict) {
+  test::must(Database::open(file));
+  EXPECT_EQ(test::ask(file,
+                      "SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND NOT strict "
+                      "AND schema = 'main' AND name NOT LIKE 'sqlite%'"),
+            "0");
+}
+
+TEST_F(OpenDatabase, a_newer_schema_is_refused) {
+  test::must(Database::open(file));
+  {
+    auto connection = test::must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+    test::must(connection.execute("PRAGMA user_version = 1000", "ageing"));
+  }
+  expect_refused(ErrorKind::kNewerSchema, "schema version 1000, expected at most");
+}
+
+TEST_F(OpenDatabase, a_file_that_is_no_database_is_refused) {
+  std::ofstream{file} << std::string(5000, 'x');
+  expect_refused(ErrorKind::kNotADatabase, "not a database");
+}
+
+TEST_F(OpenDatabase, a_short_text_file_is_refused) {
+  std::ofstream{file} << "width 32\n";
+  expect_refused(ErrorKind::kNotADatabase, "not a database");
+}
+
+TEST_F(OpenDatabase, a_database_of_another_program_is_refused) {
+  {
+    auto connection = test::must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+    test::must(connection.execute("CREATE TABLE bookmark (url TEXT)", "making another program's table"));
+  }
+  expect_refused(ErrorKind::kNotADatabase, "database of another program");
+}
+
+TEST_F(OpenDatabase, a_directory_is_refused) {
+  for (const auto& result : {Database::open(folder), Database::open_read_only(folder)}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, folder.string() + ": a directory, expected a database file");
+  }
+}
+
+TEST_F(OpenDatabase, a_missing_folder_is_named) {
+  const auto result = Database::open(folder / "none" / "x.db");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("no folder " + (folder / "none").string()), std::string::npos);
+}
+
+TEST_F(OpenDatabase, reading_makes_no_file) {
+  const auto result = Database::open_read_only(file);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kNotFound);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(OpenDatabase, reading_an_empty_file_is_an_error) {
+  std::ofstream{file};
+  const auto result = Database::open_read_only(file);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("an empty file, expected a history"), std::string::npos);
+  EXPECT_EQ(std::filesystem::file_size(file), 0U);
+}
+
+TEST_F(OpenDatabase, what_is_opened_for_reading_cannot_be_written) {
+  test::must(Database::open(file));
+  auto database = test::must(Database::open_read_only(file));
+  EXPECT_FALSE(database.connection().execute("DELETE FROM run", "writing"));
+}
+
+TEST_F(OpenDatabase, foreign_keys_are_enforced) {
+  auto database = test::must(Database::open(file));
+  const auto result = database.connection().execute(
+      "INSERT INTO cell (run_id, case_id, finished_utc, result_count) VALUES (1, 1, '', 0)",
+      "writing an orphan");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("FOREIGN KEY"), std::string::npos);
+}
+
+TEST(DatabasePath, option_before_environment_before_working_directory) {
+  ASSERT_EQ(setenv("SIPPLAB_DB", "/elsewhere/h.db", 1), 0);
+  EXPECT_EQ(database_path("mine.db"), "mine.db");
+  EXPECT_EQ(database_path(std::nullopt), "/elsewhere/h.db");
+  ASSERT_EQ(setenv("SIPPLAB_DB", "", 1), 0);
+  EXPECT_EQ(database_path(std::nullopt), "sipplab.db");
+  ASSERT_EQ(unsetenv("SIPPLAB_DB"), 0);
+  EXPECT_EQ(database_path(std::nullopt), "sipplab.db");
+}
+
+constexpr Migration kSteps[] = {
+    {1, "0001_one", "CREATE TABLE one (x INTEGER) STRICT;"},
+    {2, "0002_two", "ALTER TABLE one ADD COLUMN y TEXT; INSERT INTO one VALUES (1, 'a');"},
+    {3, "0003_wrong", "CREATE TABLE three (x INTEGER); SELECT nonsense FROM nowhere;"}};
+
+TEST_F(OpenDatabase, steps_that_are_missing_are_applied_once) {
+  auto connection = test::must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+  test::must(migrate(connection, std::span{kSteps}.first(1)));
+  EXPECT_EQ(test::must(connection.query_int("PRAGMA user_version", "asking")), 1);
+  test::must(migrate(connection, std::span{kSteps}.first(2)));
+  test::must(migrate(connection, std::span{kSteps}.first(2)));
+  EXPECT_EQ(test::must(connection.query_int("SELECT count(*) FROM one", "asking")), 1);
+  EXPECT_EQ(test::must(connection.query_int("PRAGMA user_version", "asking")), 2);
+}
+
+TEST_F(OpenDatabase, a_step_that_fails_is_undone_as_a_whole) {
+  auto connection = test::must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+  const auto result = migrate(connection, kSteps);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("0003_wrong"), std::string::npos) << result.error().message;
+  EXPECT_EQ(test::must(connection.query_int("PRAGMA user_version", "asking")), 2);
+  EXPECT_EQ(
+      test::must(connection.query_int("SELECT count(*) FROM sqlite_schema WHERE name = 'three'", "asking")),
+      0);
+}
+
+TEST_F(OpenDatabase, migrations_are_numbered_from_one_without_gaps) {
+  int expected = 1;
+  for (const Migration& step : migrations()) EXPECT_EQ(step.version, expected++) << step.name;
+  EXPECT_GT(expected, 1);
+}
+
+}  // namespace
+}  // namespace sipplab::db

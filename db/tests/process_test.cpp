@@ -1,0 +1,185 @@
+// Many processes on one file: killed ones, and ones that write at the same time.
+#include <fmt/core.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "db/identity.hpp"
+#include "db/queries.hpp"
+#include "db/tests/support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using namespace std::chrono_literals;
+using test::ask;
+using test::must;
+using test::sample_case;
+using test::sample_run;
+
+/// Runs `body` in a child process, whose exit code is what it returns.
+template <class Body>
+pid_t start(Body body) {
+  const pid_t child = fork();
+  if (child == 0) _exit(body());
+  return child;
+}
+
+int exit_code(pid_t child) {
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+  return WEXITSTATUS(status);
+}
+
+class Processes : public test::DatabaseTest {};
+
+/// Records cases of `results` each, starting with `first`; reports each finished case
+/// as one byte through the pipe.
+int record_without_end(RunRecorder& recorder, std::int64_t first, int results, int pipe_end) {
+  for (std::int64_t robots = first;; ++robots) {
+    const CaseInfo parameters = sample_case(robots);
+    for (int i = 0; i < results; ++i) {
+      recorder.add(parameters, test::sample_instance(i), test::sample_result(i));
+    }
+    if (!recorder.commit_case(parameters)) return 1;
+    if (write(pipe_end, "c", 1) != 1) return 1;
+  }
+}
+
+TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
+  constexpr int kKills = 50;
+  constexpr int kResults = 40;
+  std::mt19937 random{1};
+  std::uniform_int_distribution<int> cases_before_kill{0, 3};
+  std::uniform_int_distribution<int> delay_us{0, 3'000};
+  std::int64_t finished = 0;
+  const std::string uuid = must(RunRecorder::begin(must(Database::open(file)), sample_run())).run_uuid();
+  // The run began in this process, which is alive and so would be left alone.
+  ask(file, "UPDATE run SET writer = 'gone' RETURNING 1");
+  for (int kill_number = 0; kill_number < kKills; ++kill_number) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    const pid_t child = start([&] {
+      close(ends[0]);
+      auto database = Database::open(file);
+      if (!database) return 1;
+      auto recorder = RunRecorder::resume(std::move(*database), uuid);
+      if (!recorder) return 1;
+      return record_without_end(*recorder, finished, kResults, ends[1]);
+    });
+    close(ends[1]);
+    // Some are killed while they open the file, most in the middle of writing.
+    std::int64_t reported = 0;
+    char byte = 0;
+    const int enough = cases_before_kill(random);
+    while (reported < enough && read(ends[0], &byte, 1) == 1) ++reported;
+    std::this_thread::sleep_for(std::chrono::microseconds{delay_us(random)});
+    kill(child, SIGKILL);
+    while (read(ends[0], &byte, 1) == 1) ++reported;
+    close(ends[0]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer ended by itself";
+
+    // One case may be committed and not reported yet.
+    const std::int64_t cells = std::stoll(ask(file, "SELECT count(*) FROM cell"));
+    EXPECT_GE(cells, finished + reported);
+    EXPECT_LE(cells, finished + reported + 1);
+    EXPECT_EQ(ask(file, "SELECT count(*) FROM result"), std::to_string(cells * kResults));
+    EXPECT_EQ(ask(file, "SELECT ifnull(max(robots), -1) FROM case_"), std::to_string(cells - 1));
+    test::expect_sound(file);
+    finished = cells;
+  }
+  EXPECT_GT(finished, 0) << "no case was finished before a kill: nothing was tested";
+  auto database = must(Database::open(file));
+  const auto resumable = must(find_resumable_run(database, sample_run()));
+  ASSERT_TRUE(resumable);
+  EXPECT_EQ(resumable->uuid, uuid);
+  EXPECT_EQ(resumable->status, RunStatus::kRunning);
+}
+
+TEST_F(Processes, eight_writers_and_two_readers_never_see_a_lock) {
+  constexpr int kWriters = 8;
+  constexpr auto kTime = 2s;
+  std::vector<pid_t> children;
+  const auto end = std::chrono::steady_clock::now() + kTime;
+  for (int writer = 0; writer < kWriters; ++writer) {
+    // Each opens the file itself: eight at once make the fresh schema, too.
+    children.push_back(start([&] {
+      auto database = Database::open(file);
+      if (!database) return 1;
+      auto recorder = RunRecorder::begin(std::move(*database), sample_run());
+      if (!recorder) return 2;
+      for (std::int64_t robots = 0; std::chrono::steady_clock::now() < end; ++robots) {
+        for (int i = 0; i < 20; ++i) {
+          recorder->add(sample_case(robots), test::sample_instance(i), test::sample_result(i));
+        }
+        if (!recorder->commit_case(sample_case(robots))) return 3;
+      }
+      return recorder->finish(RunStatus::kFinished) ? 0 : 4;
+    }));
+  }
+  while (!std::filesystem::exists(file) || std::filesystem::file_size(file) == 0)
+    std::this_thread::sleep_for(1ms);
+  for (int reader = 0; reader < 2; ++reader) {
+    children.push_back(start([&] {
+      while (std::chrono::steady_clock::now() < end) {
+        auto table = run_sql(file, "SELECT count(*), sum(results) FROM v_runs");
+        // The file is there before its schema is.
+        if (!table && table.error().kind != ErrorKind::kNotADatabase) return 5;
+      }
+      return 0;
+    }));
+  }
+  for (const pid_t child : children) EXPECT_EQ(exit_code(child), 0);
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_runs WHERE status = 'finished' AND cases > 0"), "8");
+  test::expect_sound(file);
+}
+
+TEST_F(Processes, a_live_run_is_not_resumed_by_another_process) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = start([&] {
+    auto recorder = RunRecorder::begin(must(Database::open(file)), sample_run());
+    if (!recorder || write(ends[1], "b", 1) != 1) return 1;
+    pause();
+    return 0;
+  });
+  char byte = 0;
+  ASSERT_EQ(read(ends[0], &byte, 1), 1);
+  auto database = must(Database::open(file));
+  EXPECT_FALSE(must(find_resumable_run(database, sample_run())));
+  const std::string uuid = ask(file, "SELECT uuid FROM run");
+  const auto refused = RunRecorder::resume(must(Database::open(file)), uuid);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("is being written"), std::string::npos);
+
+  kill(child, SIGKILL);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_TRUE(must(find_resumable_run(database, sample_run())));
+  EXPECT_TRUE(RunRecorder::resume(must(Database::open(file)), uuid));
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(Identity, processes_and_uuids) {
+  EXPECT_TRUE(is_alive(this_process()));
+  EXPECT_FALSE(is_alive(""));
+  EXPECT_FALSE(is_alive("no-such-boot 1 1"));
+  std::string restarted = this_process();
+  restarted.back() = restarted.back() == '1' ? '2' : '1';
+  EXPECT_FALSE(is_alive(restarted)) << "the same number at another time is another process";
+  const std::string uuid = new_uuid();
+  EXPECT_EQ(uuid.size(), 36U);
+  EXPECT_EQ(uuid[14], '4');
+  EXPECT_NE(uuid, new_uuid());
+  EXPECT_EQ(utc_now().size(), std::string{"2026-01-31T12:00:00.123Z"}.size());
+}
+
+}  // namespace
+}  // namespace sipplab::db

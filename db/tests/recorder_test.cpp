@@ -1,0 +1,311 @@
+// Recording: what is written is what is read, all of a case or nothing.
+#include "db/recorder.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "db/queries.hpp"
+#include "db/tests/support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using test::ask;
+using test::must;
+using test::sample_case;
+using test::sample_instance;
+using test::sample_result;
+using test::sample_run;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Recording : public test::DatabaseTest {
+ protected:
+  ~Recording() override {
+    if (std::filesystem::exists(file)) test::expect_sound(file);
+  }
+  RunRecorder begin(const RunInfo& info = sample_run()) {
+    return must(RunRecorder::begin(must(Database::open(file)), info));
+  }
+};
+
+TEST_F(Recording, every_field_of_a_run_is_kept) {
+  const std::string uuid = begin().run_uuid();
+  EXPECT_EQ(ask(file,
+                "SELECT run || '|' || suite || '|' || status || '|' || branch || '|' || command_line || '|' "
+                "|| options || '|' || seed || '|' || time_limit_s FROM v_runs"),
+            uuid + "|smoke|running|main|sipplab bench --suite smoke|count=50 seed=1|1|300.0");
+  EXPECT_EQ(
+      ask(file,
+          "SELECT commit_hash || '|' || commit_subject || '|' || committed_utc || '|' || ancestor_count "
+          "FROM v_runs"),
+      "0123456789abcdef0123456789abcdef01234567|Close the interval|2026-01-31T12:00:00Z|42");
+  EXPECT_EQ(ask(file, "SELECT first_parent_hash || '|' || first_parent_count FROM commit_"),
+            "fedcba9876543210fedcba9876543210fedcba98|40");
+  EXPECT_EQ(ask(file,
+                "SELECT host || '|' || cpu_model || '|' || cores || '|' || memory_bytes || '|' || kernel "
+                "|| '|' || machine FROM v_runs"),
+            "host|A CPU|2|8589934592|Linux 6.1|" + fingerprint(sample_run().machine));
+  EXPECT_EQ(ask(file,
+                "SELECT compiler || '|' || compiler_version || '|' || flags || '|' || build_type || '|' || "
+                "assertions || '|' || sanitizers || '|' || binary_hash || '|' || dirty FROM v_runs"),
+            "gcc|12.2.0|-O3|Release|0||00ff00ff00ff00ff|0");
+}
+
+TEST_F(Recording, every_field_of_a_result_is_kept) {
+  auto recorder = begin();
+  const CaseInfo parameters = sample_case(64, 2.5);
+  ResultRow row = sample_result(0);
+  row.repetition = 3;
+  row.makespan_s = 0.1 + 0.2;
+  row.peak_memory_bytes = 123456789;
+  recorder.add(parameters, sample_instance(0), row);
+  ResultRow censored;
+  censored.status = ResultStatus::kLimit;
+  censored.limit = "expansions";
+  censored.expansions = std::numeric_limits<std::uint64_t>::max();
+  recorder.add(parameters, sample_instance(1), censored);
+  ResultRow invalid = sample_result(2);
+  invalid.status = ResultStatus::kInvalid;
+  invalid.valid = false;
+  invalid.violations = 2;
+  invalid.message = "robots 1 and 2 overlap";
+  recorder.add(parameters, sample_instance(2), invalid);
+  must(recorder.commit_case(parameters));
+  EXPECT_EQ(ask(file,
+                "SELECT instance || '|' || instance_hash || '|' || repetition || '|' || status || '|' || "
+                "planning_time_ns || '|' || tries || '|' || expansions || '|' || generations || '|' || "
+                "plan_hash || '|' || valid || '|' || violations || '|' || peak_memory_bytes || '|' || "
+                "ifnull(limit_struck, 'no limit') || '|' || ifnull(message, 'no message') "
+                "FROM v_results WHERE status = 'solved'"),
+            "warehouse seed=1 "
+            "index=0|0000000000000001|3|solved|1000000|2|5000|20000|fedcba9876543210|1|0|123456789|"
+            "no limit|no message");
+  EXPECT_EQ(ask(file,
+                "SELECT count(*) FROM v_results WHERE makespan_s = 0.1 + 0.2 AND flowtime_s = 1000.0 "
+                "AND min_clearance_cells = 1e-12"),
+            "1");
+  EXPECT_EQ(ask(file,
+                "SELECT limit_struck || '|' || (makespan_s IS NULL) || '|' || (plan_hash IS NULL) || '|' || "
+                "(valid IS NULL) || '|' || expansions FROM v_results WHERE status = 'limit'"),
+            "expansions|1|1|1|9223372036854775807");
+  EXPECT_EQ(
+      ask(file,
+          "SELECT valid || '|' || violations || '|' || message FROM v_results WHERE status = 'invalid'"),
+      "0|2|robots 1 and 2 overlap");
+}
+
+TEST_F(Recording, cases_come_back_with_all_their_parameters) {
+  CaseInfo odd = sample_case(192, kInfinity);
+  odd.environment = "empty";
+  odd.map_spec = "empty:32x32";
+  odd.instance_set = "files";
+  odd.planner = "sipp";
+  odd.order = "random";
+  odd.reschedule = "random";
+  odd.any_angle = false;
+  odd.connectedness = 5;
+  odd.radius_cells = 0.3;
+  odd.speed_cells_per_s = 2;
+  odd.time_limit_s = kInfinity;
+  odd.max_expansions = 1000;
+  odd.max_restarts = 10;
+  odd.seed = std::numeric_limits<std::uint64_t>::max();
+  auto recorder = begin();
+  must(recorder.commit_case(odd));
+  must(recorder.commit_case(sample_case(64)));
+  auto database = must(Database::open(file));
+  EXPECT_EQ(must(finished_cases(database, recorder.run_uuid())), (std::vector{odd, sample_case(64)}));
+  EXPECT_TRUE(recorder.is_finished(odd));
+  EXPECT_FALSE(recorder.is_finished(sample_case(63)));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_run_cells WHERE ssi_s = 9e999 AND time_limit_s > 1e300"), "1");
+  EXPECT_EQ(
+      ask(file, "SELECT count(*) FROM v_run_cells WHERE max_expansions IS NULL AND max_restarts IS NULL"),
+      "1");
+}
+
+TEST_F(Recording, parameters_differ_in_one_field_only_and_are_two_cases) {
+  auto recorder = begin();
+  CaseInfo other = sample_case(64);
+  other.max_restarts = 1;
+  must(recorder.commit_case(sample_case(64)));
+  must(recorder.commit_case(other));
+  must(recorder.commit_case(sample_case(64, kInfinity)));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM case_"), "3");
+  // A second run finds the same cases again.
+  auto second = begin();
+  must(second.commit_case(sample_case(64, kInfinity)));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM case_"), "3");
+}
+
+TEST_F(Recording, machines_builds_commits_and_instances_are_written_once) {
+  for (int i = 0; i < 2; ++i) {
+    auto recorder = begin();
+    test::record_case(recorder, sample_case(64), 3);
+  }
+  EXPECT_EQ(ask(file,
+                "SELECT (SELECT count(*) FROM machine) || (SELECT count(*) FROM build) || "
+                "(SELECT count(*) FROM commit_) || (SELECT count(*) FROM instance)"),
+            "1113");
+  RunInfo elsewhere = sample_run();
+  elsewhere.machine.kernel = "Linux 6.2";
+  elsewhere.build.dirty = true;
+  elsewhere.commit.reset();
+  begin(elsewhere);
+  EXPECT_EQ(ask(file,
+                "SELECT (SELECT count(*) FROM machine) || (SELECT count(*) FROM build) || "
+                "(SELECT count(*) FROM commit_)"),
+            "221");
+}
+
+TEST_F(Recording, counts_of_a_commit_are_filled_in_when_they_become_known) {
+  RunInfo shallow = sample_run();
+  shallow.commit->ancestor_count = 0;
+  begin(shallow);
+  begin();
+  begin(shallow);
+  EXPECT_EQ(ask(file, "SELECT ancestor_count FROM commit_"), "42");
+}
+
+TEST_F(Recording, nothing_of_a_case_is_there_before_it_is_committed) {
+  auto recorder = begin();
+  recorder.add(sample_case(64), sample_instance(0), sample_result(0));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM result"), "0");
+  recorder.discard_case(sample_case(64));
+  recorder.add(sample_case(65), sample_instance(0), sample_result(0));
+  must(recorder.commit_case(sample_case(65)));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_results"), "1");
+  must(recorder.finish(RunStatus::kFinished));
+  EXPECT_EQ(ask(file, "SELECT status || (ended_utc >= started_utc) FROM v_runs"), "finished1");
+}
+
+TEST_F(Recording, two_results_of_one_instance_and_repetition_leave_nothing_of_the_case) {
+  auto recorder = begin();
+  recorder.add(sample_case(64), sample_instance(0), sample_result(0));
+  recorder.add(sample_case(64), sample_instance(0), sample_result(0));
+  const auto result = recorder.commit_case(sample_case(64));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kBadInput);
+  EXPECT_FALSE(recorder.is_finished(sample_case(64)));
+  EXPECT_EQ(ask(file, "SELECT (SELECT count(*) FROM cell) + (SELECT count(*) FROM instance)"), "0");
+  // The keys of the undone instances must not be used again.
+  recorder.discard_case(sample_case(64));
+  test::record_case(recorder, sample_case(64), 1);
+}
+
+TEST_F(Recording, a_case_is_recorded_once) {
+  auto recorder = begin();
+  test::record_case(recorder, sample_case(64), 1);
+  EXPECT_FALSE(recorder.commit_case(sample_case(64)));
+}
+
+TEST_F(Recording, numbers_that_are_none_and_solved_without_costs_are_refused) {
+  auto recorder = begin();
+  ResultRow row = sample_result(0);
+  row.makespan_s = std::nan("");
+  recorder.add(sample_case(1), sample_instance(0), row);
+  EXPECT_FALSE(recorder.commit_case(sample_case(1)));
+  row.makespan_s.reset();
+  recorder.add(sample_case(2), sample_instance(0), row);
+  EXPECT_FALSE(recorder.commit_case(sample_case(2)));
+  row = sample_result(0);
+  row.valid = false;
+  recorder.add(sample_case(3), sample_instance(0), row);
+  EXPECT_FALSE(recorder.commit_case(sample_case(3)));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM cell"), "0");
+}
+
+TEST_F(Recording, a_full_disk_is_an_error_and_loses_nothing_that_was_committed) {
+  auto database = must(Database::open(file));
+  const auto pages = must(database.connection().query_int("PRAGMA page_count", "asking"));
+  must(database.connection().execute("PRAGMA max_page_count = " + std::to_string(pages + 10), "limiting"));
+  auto recorder = must(RunRecorder::begin(std::move(database), sample_run()));
+  test::record_case(recorder, sample_case(1), 10);
+  for (int i = 0; i < 5000; ++i) recorder.add(sample_case(2), sample_instance(i), sample_result(i));
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto result = recorder.commit_case(sample_case(2));
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kFull);
+    EXPECT_NE(result.error().message.find("no space left while writing"), std::string::npos);
+    EXPECT_EQ(result.error().message.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_results"), "10");
+  // Small cases still fit, and so does the end of the run.
+  test::record_case(recorder, sample_case(3), 1);
+  must(recorder.finish(RunStatus::kAborted));
+}
+
+TEST_F(Recording, a_run_that_ended_early_is_resumed_under_its_uuid) {
+  std::string uuid;
+  {
+    auto recorder = begin();
+    uuid = recorder.run_uuid();
+    test::record_case(recorder, sample_case(64), 2);
+    must(recorder.finish(RunStatus::kAborted));
+  }
+  auto database = must(Database::open(file));
+  const auto found = must(find_resumable_run(database, sample_run()));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->uuid, uuid);
+  EXPECT_EQ(found->status, RunStatus::kAborted);
+  EXPECT_EQ(found->finished_cases, 1U);
+
+  auto recorder = must(RunRecorder::resume(std::move(database), uuid));
+  EXPECT_TRUE(recorder.is_finished(sample_case(64)));
+  EXPECT_EQ(ask(file, "SELECT status || (ended_utc IS NULL) FROM run"), "running1");
+  test::record_case(recorder, sample_case(65), 2);
+  must(recorder.finish(RunStatus::kFinished));
+  EXPECT_EQ(ask(file, "SELECT count(*) || group_concat(cases) || group_concat(results) FROM v_runs"), "124");
+  auto again = must(Database::open(file));
+  EXPECT_FALSE(must(find_resumable_run(again, sample_run())));
+  EXPECT_FALSE(RunRecorder::resume(std::move(again), uuid));
+}
+
+TEST_F(Recording, only_a_run_of_the_same_kind_is_resumed) {
+  must(begin().finish(RunStatus::kAborted));
+  auto database = must(Database::open(file));
+  const auto resumable = [&](auto change) {
+    RunInfo info = sample_run();
+    change(info);
+    return must(find_resumable_run(database, info)).has_value();
+  };
+  EXPECT_TRUE(resumable([](RunInfo&) {}));
+  EXPECT_TRUE(resumable([](RunInfo& info) { info.command_line += " --resume"; }));
+  EXPECT_FALSE(resumable([](RunInfo& info) { info.suite = "paper"; }));
+  EXPECT_FALSE(resumable([](RunInfo& info) { info.options = "count=49 seed=1"; }));
+  EXPECT_FALSE(resumable([](RunInfo& info) { info.build.binary_hash = "1"; }));
+  EXPECT_FALSE(resumable([](RunInfo& info) { info.build.flags = "-O2"; }));
+  EXPECT_FALSE(resumable([](RunInfo& info) { info.machine.cores = 3; }));
+  must(exclude_run(database, "latest", "machine was busy"));
+  EXPECT_FALSE(resumable([](RunInfo&) {}));
+}
+
+TEST_F(Recording, a_run_has_one_writer) {
+  auto recorder = begin();
+  {
+    auto connection = must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+    must(connection.execute("UPDATE run SET writer = 'somebody else'", "taking over"));
+  }
+  recorder.add(sample_case(64), sample_instance(0), sample_result(0));
+  const auto result = recorder.commit_case(sample_case(64));
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("taken over by another process"), std::string::npos);
+  EXPECT_FALSE(recorder.finish(RunStatus::kFinished));
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM cell"), "0");
+}
+
+TEST_F(Recording, fingerprints_keep_fields_apart) {
+  MachineInfo machine = sample_run().machine;
+  const std::string before = fingerprint(machine);
+  EXPECT_EQ(fingerprint(machine), before);
+  EXPECT_EQ(before.size(), 16U);
+  machine.host = "hostA";
+  machine.cpu_model = " CPU";
+  MachineInfo shifted = machine;
+  shifted.host = "host";
+  shifted.cpu_model = "A CPU";
+  EXPECT_NE(fingerprint(machine), fingerprint(shifted));
+}
+
+}  // namespace
+}  // namespace sipplab::db

@@ -1,0 +1,85 @@
+// schema.md names everything that the schema has.
+#include <sstream>
+
+#include "db/queries.hpp"
+#include "db/tests/support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+class SchemaDocument : public test::DatabaseTest {};
+
+/// The part of the text under a heading, up to the next one.
+std::string section(const std::string& text, const std::string& heading) {
+  const std::size_t begin = text.find("\n" + heading + "\n");
+  if (begin == std::string::npos) return {};
+  const std::size_t end = text.find("\n#", begin + 1);
+  return text.substr(begin, end - begin);
+}
+
+/// The lines of a section that are indented by four blanks.
+std::string example(const std::string& section_text) {
+  std::istringstream lines{section_text};
+  std::string sql;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("    ", 0) == 0) sql += line + ' ';
+  }
+  return sql;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+std::string document() { return test::bytes_of(std::filesystem::path{SIPPLAB_DB_FOLDER} / "schema.md"); }
+
+TEST_F(SchemaDocument, names_every_table_view_and_column) {
+  const std::string text = document();
+  ASSERT_FALSE(text.empty());
+  test::must(Database::open(file));
+  const Table columns = test::must(
+      run_sql(file,
+              "SELECT t.name, c.name FROM pragma_table_list AS t JOIN pragma_table_xinfo(t.name) AS c "
+              "WHERE t.schema = 'main' AND t.name NOT LIKE 'sqlite%' ORDER BY t.name, c.cid"));
+  ASSERT_GT(columns.rows.size(), 50U);
+  for (const auto& row : columns.rows) {
+    const auto& table = std::get<std::string>(row[0]);
+    const auto& column = std::get<std::string>(row[1]);
+    const std::string description = section(text, "### `" + table + "`");
+    EXPECT_FALSE(description.empty()) << "no section for " << table;
+    EXPECT_NE(description.find("`" + column + "`"), std::string::npos) << table << '.' << column;
+  }
+}
+
+TEST_F(SchemaDocument, has_examples_that_answer) {
+  std::vector<std::string> runs;
+  for (const bool solved : {true, false}) {
+    auto recorder = test::must(RunRecorder::begin(test::must(Database::open(file)), test::sample_run()));
+    const CaseInfo parameters = test::sample_case(64);
+    recorder.add(parameters, test::sample_instance(0),
+                 solved ? test::sample_result(0) : test::failed_result());
+    test::must(recorder.commit_case(parameters));
+    runs.push_back(recorder.run_uuid());
+  }
+  const auto expect_answer = [&](std::string sql) {
+    replace_all(sql, ":run", "'" + runs[0] + "'");
+    replace_all(sql, ":other", "'" + runs[1] + "'");
+    const auto answer = run_sql(file, sql);
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_GT(answer->rows.size(), 0U) << sql;
+  };
+  const Table views = test::must(run_sql(file, "SELECT name FROM sqlite_schema WHERE type = 'view'"));
+  ASSERT_FALSE(views.rows.empty());
+  for (const auto& row : views.rows) {
+    const auto& view = std::get<std::string>(row[0]);
+    const std::string sql = example(section(document(), "### `" + view + "`"));
+    EXPECT_NE(sql.find(view), std::string::npos) << view << " has no example";
+    expect_answer(sql);
+  }
+  expect_answer(example(section(document(), "## Functions")));
+}
+
+}  // namespace
+}  // namespace sipplab::db

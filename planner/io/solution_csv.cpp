@@ -1,0 +1,150 @@
+// Solutions as CSV (RFC 4180), one line a motion: see solution_io.hpp.
+#include <array>
+#include <limits>
+
+#include "planner/io/solution_parts.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr std::string_view kHeader = "agent,id,t0,t1,x0,y0,x1,y1";
+constexpr std::size_t kColumns = 8;
+
+void append_field(std::string& out, std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
+
+struct Record {
+  std::vector<std::string> fields;
+  int line = 0;
+  bool complete = true;  ///< false where a quote stays open
+};
+
+/// Cuts the next record off `rest`; quoted fields may hold line breaks.
+Record next_record(std::string_view& rest, int& line) {
+  Record record;
+  record.line = line;
+  record.fields.emplace_back();
+  bool in_quotes_now = false;
+  std::size_t at = 0;
+  for (; at < rest.size(); ++at) {
+    const char c = rest[at];
+    if (c == '\n') ++line;
+    if (in_quotes_now) {
+      if (c != '"') {
+        record.fields.back() += c;
+      } else if (at + 1 < rest.size() && rest[at + 1] == '"') {
+        record.fields.back() += rest[++at];
+      } else {
+        in_quotes_now = false;
+      }
+    } else if (c == '"') {
+      in_quotes_now = true;
+    } else if (c == ',') {
+      // A line with many commas is wrong however many there are.
+      if (record.fields.size() <= kColumns) record.fields.emplace_back();
+    } else if (c == '\n') {
+      ++at;
+      break;
+    } else if (c != '\r') {
+      record.fields.back() += c;
+    }
+  }
+  record.complete = !in_quotes_now;
+  rest.remove_prefix(at);
+  return record;
+}
+
+/// The motion of a record, or what is wrong with it.
+Expected<TimedMotion, std::string> motion_of(const std::vector<std::string>& fields) {
+  const auto begin_s = parse_real(fields[2]);
+  const auto end_s = parse_real(fields[3]);
+  if (!begin_s || !end_s) return Unexpected{"time " + in_quotes(begin_s ? fields[3] : fields[2])};
+  std::array<std::int32_t, 4> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto number = parse_integer(fields[4 + i]);
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    if (!number || *number < -kMost || *number > kMost) {
+      return Unexpected{"coordinate " + in_quotes(fields[4 + i])};
+    }
+    numbers[i] = static_cast<std::int32_t>(*number);
+  }
+  return TimedMotion{*begin_s, *end_s, {numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+}  // namespace
+
+std::string solution_to_csv(const Instance& instance, const SolutionDocument& document) {
+  std::string out(kHeader);
+  out += '\n';
+  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    for (const TimedMotion& motion : trajectories[i].motions) {
+      out += std::to_string(i) + ",";
+      append_field(out, instance.agents[i].id);
+      out += ',';
+      append_real(out, motion.begin_s);
+      out += ',';
+      append_real(out, motion.end_s);
+      for (const std::int32_t number : {motion.from.x, motion.from.y, motion.to.x, motion.to.y}) {
+        out += "," + std::to_string(number);
+      }
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::string& file_name,
+                                           const Instance& instance) {
+  const auto error = [&file_name](int line, std::string what, std::string expected) {
+    return Unexpected{InputError{file_name, line, std::move(what), std::move(expected)}};
+  };
+  const std::string_view header = trimmed(text.substr(0, text.find('\n')));
+  if (header != kHeader) return error(1, "header " + in_quotes(header), std::string(kHeader));
+  SolutionDocument document;
+  for (const Agent& agent : instance.agents) document.solution.trajectories.push_back({agent.start, {}});
+
+  int line = 1;
+  std::string_view rest = text;
+  next_record(rest, line);
+  while (!rest.empty()) {
+    const Record record = next_record(rest, line);
+    if (!record.complete) return error(record.line, "a quote that is not closed", "a closing \"");
+    if (record.fields.size() == 1 && trimmed(record.fields[0]).empty()) continue;
+    if (record.fields.size() != kColumns) {
+      return error(record.line,
+                   record.fields.size() > kColumns ? "too many fields"
+                                                   : std::to_string(record.fields.size()) + " fields",
+                   "8: " + std::string(kHeader));
+    }
+    const auto agent = parse_integer(record.fields[0]);
+    if (!agent || *agent < 0 || static_cast<std::uint64_t>(*agent) >= instance.agents.size()) {
+      return error(record.line, "agent " + in_quotes(record.fields[0]),
+                   "a position below " + std::to_string(instance.agents.size()));
+    }
+    const auto index = static_cast<AgentIndex>(*agent);
+    if (record.fields[1] != instance.agents[index].id) {
+      return error(record.line, "id " + in_quotes(record.fields[1]),
+                   "that of the instance, " + in_quotes(instance.agents[index].id));
+    }
+    const Expected<TimedMotion, std::string> motion = motion_of(record.fields);
+    if (!motion) return error(record.line, motion.error(), "a number");
+    Trajectory& trajectory = document.solution.trajectories[index];
+    if (trajectory.motions.empty()) trajectory.start = motion->from;
+    trajectory.motions.push_back(*motion);
+  }
+  return document;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,58 @@
+// Solutions out and in: XML in the style of AA-SIPP(m)'s log, JSON, CSV. All numbers
+// survive the round trip bit by bit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/instance/instance.hpp"
+#include "planner/io/input_error.hpp"
+#include "planner/prioritized/options.hpp"
+#include "planner/solution/solution.hpp"
+
+namespace sipplab {
+
+/// A solution and what is told about it. What is empty is written as null in JSON
+/// and left out elsewhere.
+struct SolutionDocument {
+  std::string status = "solved";  ///< "solved", "failed", "limit"
+  bool valid = false;             ///< the validator's verdict
+  Solution solution;              ///< one trajectory per agent when solved, else empty
+  std::vector<AgentIndex> order;  ///< final priority order
+  std::optional<double> makespan_s;
+  std::optional<double> flowtime_s;
+  std::uint64_t tries = 0;
+  std::uint64_t expansions = 0;
+  std::uint64_t generations = 0;
+  double planning_seconds = 0;
+  std::string plan_hash;
+  /// What it was planned with. Kept by JSON (extra keys at the end: "ssi", "reschedule",
+  /// "initial_order", "any_angle", "connectedness", "seed") and XML; limits are not.
+  std::optional<PlannerOptions> options;
+};
+
+enum class SolutionFormat { kXml, kJson, kCsv };
+/// "xml", "json", "csv".
+std::optional<SolutionFormat> parse_solution_format(std::string_view text);
+
+/// REQUIRES: the solution is empty or has one trajectory per agent of the instance.
+std::string solution_to_json(const Instance& instance, const SolutionDocument& document);
+std::string solution_to_xml(const Instance& instance, const SolutionDocument& document);
+/// One line a motion: agent,id,t0,t1,x0,y0,x1,y1. Holds the trajectories alone.
+std::string solution_to_csv(const Instance& instance, const SolutionDocument& document);
+std::string write_solution(SolutionFormat format, const Instance& instance, const SolutionDocument& document);
+
+/// Reads a solution of this instance; the format is told from the content. The
+/// published planner's logs are read as well: their durations, rounded to 8 digits,
+/// are summed up from time 0, and a straight section that takes its length over
+/// the robot's speed to within that rounding gets exactly that duration. A robot
+/// without motions stays at its start. Whether the solution is right is for
+/// validate() to say; here only its form is checked.
+Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
+                                       const Instance& instance);
+Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance);
+
+}  // namespace sipplab

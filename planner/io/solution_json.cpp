@@ -1,0 +1,131 @@
+// Solutions as JSON: see solution_io.hpp. Written by hand, so that keys keep their
+// order and each trajectory has a line of its own.
+#include <cmath>
+
+#include "planner/core/assert.hpp"
+#include "planner/io/solution_io.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab {
+namespace {
+
+void append_string(std::string& out, std::string_view text) {
+  constexpr const char* kHexDigits = "0123456789abcdef";
+  out += '"';
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20) {
+      out += "\\u00";
+      out += kHexDigits[byte >> 4];
+      out += kHexDigits[byte & 0xf];
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+/// JSON has neither infinity nor NaN: they become null.
+void append_number(std::string& out, std::optional<double> value) {
+  if (value && std::isfinite(*value)) {
+    append_real(out, *value);
+  } else {
+    out += "null";
+  }
+}
+
+/// Digits that every JSON reader keeps, even one that stores all numbers as double.
+constexpr std::size_t kSafeDigits = 15;
+
+bool is_canonical_integer(std::string_view id) {
+  if (id.substr(0, 1) == "-" && id != "-0") id.remove_prefix(1);
+  if (id.empty() || id.size() > kSafeDigits || (id.size() > 1 && id[0] == '0')) return false;
+  return id.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+void append_id(std::string& out, const std::string& id) {
+  if (is_canonical_integer(id)) {
+    out += id;
+  } else {
+    append_string(out, id);
+  }
+}
+
+void append_trajectory(std::string& out, const Agent& agent, const Trajectory& trajectory) {
+  out += "{\"id\": ";
+  append_id(out, agent.id);
+  out += ", \"radius\": ";
+  append_number(out, agent.radius_cells);
+  out += ", \"speed\": ";
+  append_number(out, agent.speed_cells_per_s);
+  out += ", \"motions\": [";
+  bool first = true;
+  for (const TimedMotion& motion : trajectory.motions) {
+    out += first ? "{\"t0\": " : ", {\"t0\": ";
+    first = false;
+    append_number(out, motion.begin_s);
+    out += ", \"t1\": ";
+    append_number(out, motion.end_s);
+    out += ", \"x0\": " + std::to_string(motion.from.x) + ", \"y0\": " + std::to_string(motion.from.y) +
+           ", \"x1\": " + std::to_string(motion.to.x) + ", \"y1\": " + std::to_string(motion.to.y) + "}";
+  }
+  out += "]}";
+}
+
+void append_options(std::string& out, const PlannerOptions& options) {
+  out += ",\n  \"ssi\": ";
+  if (std::isinf(options.ssi_s)) {
+    out += "\"inf\"";
+  } else {
+    append_number(out, options.ssi_s);
+  }
+  out += ",\n  \"reschedule\": \"" + std::string(name(options.rescheduling)) + "\"";
+  out += ",\n  \"initial_order\": \"" + std::string(name(options.order)) + "\"";
+  out += std::string(",\n  \"any_angle\": ") + (options.any_angle ? "true" : "false");
+  out += ",\n  \"connectedness\": " + std::to_string(options.connectedness);
+  out += ",\n  \"seed\": " + std::to_string(options.seed);
+}
+
+}  // namespace
+
+std::string solution_to_json(const Instance& instance, const SolutionDocument& document) {
+  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
+  PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
+  std::string out = "{\n  \"status\": ";
+  append_string(out, document.status);
+  out += std::string(",\n  \"valid\": ") + (document.valid ? "true" : "false");
+  out += ",\n  \"robots\": " + std::to_string(instance.agents.size());
+  out += ",\n  \"makespan\": ";
+  append_number(out, document.makespan_s);
+  out += ",\n  \"flowtime\": ";
+  append_number(out, document.flowtime_s);
+  out += ",\n  \"tries\": " + std::to_string(document.tries);
+  out += ",\n  \"expansions\": " + std::to_string(document.expansions);
+  out += ",\n  \"generations\": " + std::to_string(document.generations);
+  out += ",\n  \"planning_seconds\": ";
+  append_number(out, document.planning_seconds);
+  out += ",\n  \"plan_hash\": ";
+  if (document.plan_hash.empty()) {
+    out += "null";
+  } else {
+    append_string(out, document.plan_hash);
+  }
+  out += ",\n  \"order\": [";
+  for (std::size_t i = 0; i < document.order.size(); ++i) {
+    out += (i > 0 ? ", " : "") + std::to_string(document.order[i]);
+  }
+  out += "],\n  \"trajectories\": [";
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    out += i > 0 ? ",\n    " : "\n    ";
+    append_trajectory(out, instance.agents[i], trajectories[i]);
+  }
+  out += trajectories.empty() ? "]" : "\n  ]";
+  if (document.options) append_options(out, *document.options);
+  out += "\n}\n";
+  return out;
+}
+
+}  // namespace sipplab

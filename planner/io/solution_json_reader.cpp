@@ -1,0 +1,214 @@
+// Reading solutions from JSON: see solution_io.hpp.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "planner/io/solution_parts.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab {
+namespace {
+
+using nlohmann::json;
+
+/// Takes values out of a parsed document; the first complaint is kept, and says
+/// where in the document it is about ("trajectories[3].motions[0].t1").
+class JsonReader {
+ public:
+  explicit JsonReader(const std::string& file_name) : file_name_(file_name) {}
+
+  void fail(const std::string& where, const std::string& expected) {
+    if (!error_) error_ = InputError{file_name_, 0, where + " is missing or of the wrong kind", expected};
+  }
+  void fail_with(const std::string& what, const std::string& expected) {
+    if (!error_) error_ = InputError{file_name_, 0, what, expected};
+  }
+  const std::optional<InputError>& error() const { return error_; }
+
+  const json* find(const json& object, const char* key) const {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+  }
+
+  double number(const json& object, const char* key, const std::string& where) {
+    const json* value = find(object, key);
+    const double result = value && value->is_number() ? value->get<double>() : std::nan("");
+    if (!std::isfinite(result)) fail(where + key, "a finite number");
+    return result;
+  }
+  std::optional<double> number_or_null(const json& object, const char* key) {
+    const json* value = find(object, key);
+    if (!value || value->is_null()) return std::nullopt;
+    return number(object, key, "");
+  }
+  std::int32_t coordinate(const json& object, const char* key, const std::string& where) {
+    const json* value = find(object, key);
+    constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+    if (value && value->is_number_integer()) {
+      // Above 63 bits an unsigned number would come back negative.
+      const bool huge = value->is_number_unsigned() && value->get<std::uint64_t>() > kMost;
+      const auto result = value->get<std::int64_t>();
+      if (!huge && result >= -kMost && result <= kMost) return static_cast<std::int32_t>(result);
+    }
+    fail(where + key, "an integer within 32 bits");
+    return 0;
+  }
+  std::uint64_t count(const json& object, const char* key) {
+    const json* value = find(object, key);
+    if (!value || value->is_null()) return 0;
+    if (value->is_number_unsigned()) return value->get<std::uint64_t>();
+    fail(key, "a number of things, 0 or more");
+    return 0;
+  }
+  std::string text(const json& object, const char* key, const std::string& otherwise) {
+    const json* value = find(object, key);
+    if (!value || value->is_null()) return otherwise;
+    if (value->is_string()) return value->get<std::string>();
+    fail(key, "text");
+    return otherwise;
+  }
+  bool boolean(const json& object, const char* key, bool otherwise) {
+    const json* value = find(object, key);
+    if (!value || value->is_null()) return otherwise;
+    if (value->is_boolean()) return value->get<bool>();
+    fail(key, "true or false");
+    return otherwise;
+  }
+
+ private:
+  const std::string& file_name_;
+  std::optional<InputError> error_;
+};
+
+Trajectory read_trajectory(JsonReader& reader, const json& value, const std::string& where) {
+  Trajectory trajectory;
+  const json* motions = reader.find(value, "motions");
+  if (!motions || !motions->is_array()) {
+    reader.fail(where + "motions", "a list");
+    return trajectory;
+  }
+  std::size_t position = 0;
+  for (const json& motion : *motions) {
+    const std::string here = where + "motions[" + std::to_string(position++) + "].";
+    trajectory.motions.push_back(
+        {reader.number(motion, "t0", here),
+         reader.number(motion, "t1", here),
+         {reader.coordinate(motion, "x0", here), reader.coordinate(motion, "y0", here)},
+         {reader.coordinate(motion, "x1", here), reader.coordinate(motion, "y1", here)}});
+    if (reader.error()) return trajectory;
+  }
+  if (!trajectory.motions.empty()) trajectory.start = trajectory.motions.front().from;
+  return trajectory;
+}
+
+std::optional<std::string> read_id(JsonReader& reader, const json& value, const std::string& where) {
+  const json* id = reader.find(value, "id");
+  if (!id) return std::nullopt;
+  if (id->is_string()) return id->get<std::string>();
+  if (id->is_number_unsigned()) return std::to_string(id->get<std::uint64_t>());
+  if (id->is_number_integer()) return std::to_string(id->get<std::int64_t>());
+  reader.fail(where + "id", "text or an integer");
+  return std::nullopt;
+}
+
+void read_trajectories(JsonReader& reader, const json& document, const Instance& instance,
+                       Solution& solution) {
+  const json* values = reader.find(document, "trajectories");
+  if (!values || !values->is_array()) return reader.fail("trajectories", "a list");
+  if (values->empty()) return;
+  TrajectoryCollector collector(instance);
+  std::size_t position = 0;
+  for (const json& value : *values) {
+    const std::string where = "trajectories[" + std::to_string(position) + "].";
+    const std::optional<std::string> id = read_id(reader, value, where);
+    const std::string problem = collector.add(id, position++, read_trajectory(reader, value, where));
+    if (!problem.empty()) reader.fail_with(problem, "one trajectory for each robot of the instance");
+    if (reader.error()) return;
+  }
+  if (const auto missing = collector.missing()) {
+    return reader.fail_with("no trajectory of robot " + in_quotes(instance.agents[*missing].id),
+                            "one for each robot of the instance");
+  }
+  solution = collector.take();
+}
+
+void read_order(JsonReader& reader, const json& document, const Instance& instance,
+                std::vector<AgentIndex>& order) {
+  const json* values = reader.find(document, "order");
+  if (!values || values->is_null()) return;
+  if (!values->is_array()) return reader.fail("order", "a list");
+  for (const json& value : *values) {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= instance.agents.size()) {
+      return reader.fail("order[" + std::to_string(order.size()) + "]",
+                         "the position of a robot, counted from 0");
+    }
+    order.push_back(static_cast<AgentIndex>(value.get<std::uint64_t>()));
+  }
+}
+
+void read_planner_options(JsonReader& reader, const json& document, SolutionDocument& result) {
+  const json* ssi = reader.find(document, "ssi");
+  if (!ssi) return;
+  PlannerOptions options;
+  if (ssi->is_string() && ssi->get<std::string>() == "inf") {
+    options.ssi_s = kInfiniteSsi;
+  } else {
+    options.ssi_s = reader.number(document, "ssi", "");
+    if (options.ssi_s < 0) reader.fail("ssi", "a number from 0, or \"inf\"");
+  }
+  const auto rescheduling = parse_rescheduling(reader.text(document, "reschedule", "none"));
+  const auto order = parse_initial_order(reader.text(document, "initial_order", "fifo"));
+  if (!rescheduling) reader.fail("reschedule", "none, deterministic or random");
+  if (!order) reader.fail("initial_order", "fifo, shortest, longest or random");
+  options.rescheduling = rescheduling.value_or(options.rescheduling);
+  options.order = order.value_or(options.order);
+  options.any_angle = reader.boolean(document, "any_angle", options.any_angle);
+  if (reader.find(document, "connectedness")) {
+    options.connectedness = reader.coordinate(document, "connectedness", "");
+    if (options.connectedness < 2 || options.connectedness > 5) reader.fail("connectedness", "2, 3, 4 or 5");
+  }
+  if (reader.find(document, "seed")) options.seed = reader.count(document, "seed");
+  result.options = options;
+}
+
+}  // namespace
+
+Input<SolutionDocument> parse_solution_json(std::string_view text, const std::string& file_name,
+                                            const Instance& instance) {
+  json document;
+  try {
+    document = json::parse(text);
+  } catch (const json::exception& failure) {
+    const auto* where = dynamic_cast<const json::parse_error*>(&failure);
+    const std::size_t offset = where && where->byte > 0 ? where->byte - 1 : 0;
+    const int line = LineTable(text).line(std::min(offset, text.size()));
+    return Unexpected{InputError{file_name, line, "not well-formed JSON", "a complete document"}};
+  }
+  JsonReader reader(file_name);
+  SolutionDocument result;
+  result.status = reader.text(document, "status", "solved");
+  if (result.status != "solved" && result.status != "failed" && result.status != "limit") {
+    reader.fail("status", "solved, failed or limit");
+  }
+  result.valid = reader.boolean(document, "valid", false);
+  result.makespan_s = reader.number_or_null(document, "makespan");
+  result.flowtime_s = reader.number_or_null(document, "flowtime");
+  result.tries = reader.count(document, "tries");
+  result.expansions = reader.count(document, "expansions");
+  result.generations = reader.count(document, "generations");
+  result.planning_seconds = reader.number_or_null(document, "planning_seconds").value_or(0);
+  result.plan_hash = reader.text(document, "plan_hash", "");
+  if (reader.find(document, "robots") && reader.count(document, "robots") != instance.agents.size()) {
+    reader.fail_with("robots is " + std::to_string(reader.count(document, "robots")),
+                     "the " + std::to_string(instance.agents.size()) + " of the instance");
+  }
+  read_order(reader, document, instance, result.order);
+  read_trajectories(reader, document, instance, result.solution);
+  read_planner_options(reader, document, result);
+  if (reader.error()) return Unexpected{*reader.error()};
+  return result;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,43 @@
+// What the readers of the three solution formats share.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/io/solution_io.hpp"
+
+namespace sipplab {
+
+Input<SolutionDocument> parse_solution_json(std::string_view text, const std::string& file_name,
+                                            const Instance& instance);
+Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,
+                                           const Instance& instance);
+Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::string& file_name,
+                                           const Instance& instance);
+
+/// Puts trajectories in the order of the instance's agents. They are told by id;
+/// by position where ids repeat or are left out.
+class TrajectoryCollector {
+ public:
+  explicit TrajectoryCollector(const Instance& instance);
+
+  /// Empty when the trajectory was taken, else what is wrong: no such agent, or
+  /// one that has a trajectory already.
+  std::string add(const std::optional<std::string>& id, std::size_t position, Trajectory trajectory);
+  /// The first agent without a trajectory, if there is one.
+  std::optional<AgentIndex> missing() const;
+  Solution take() { return Solution{std::move(trajectories_)}; }
+
+ private:
+  const Instance& instance_;
+  std::map<std::string, AgentIndex> agent_of_id_;
+  bool ids_repeat_ = false;
+  std::vector<Trajectory> trajectories_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace sipplab

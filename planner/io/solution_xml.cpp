@@ -1,0 +1,224 @@
+// Solutions in the style of AA-SIPP(m)'s log: see solution_io.hpp.
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "planner/core/assert.hpp"
+#include "planner/io/solution_parts.hpp"
+#include "planner/io/text.hpp"
+#include "planner/io/write_xml.hpp"
+#include "planner/io/xml_options.hpp"
+#include "planner/io/xml_reader.hpp"
+#include "planner/io/xml_sections.hpp"
+
+namespace sipplab {
+namespace {
+
+using pugi::xml_node;
+
+constexpr NumberRange kTimes{0, std::numeric_limits<double>::max(), "a number from 0"};
+/// Counts are read as doubles; up to here each is exact.
+constexpr NumberRange kCounts{0, 0x1p53, "a number from 0"};
+
+std::string_view published_name(InitialOrder order) {
+  switch (order) {
+    case InitialOrder::kShortestFirst:
+      return "shortest_first";
+    case InitialOrder::kLongestFirst:
+      return "longest_first";
+    case InitialOrder::kRandom:
+      return "random";
+    case InitialOrder::kFifo:
+      break;
+  }
+  return "fifo";
+}
+
+std::string_view published_name(Rescheduling rescheduling) {
+  switch (rescheduling) {
+    case Rescheduling::kDeterministic:
+      return "rulebased";
+    case Rescheduling::kRandom:
+      return "random";
+    case Rescheduling::kNone:
+      break;
+  }
+  return "no";
+}
+
+void append_element(std::string& out, const char* name, std::string_view text) {
+  out += std::string("\t\t<") + name + ">";
+  out += text;
+  out += std::string("</") + name + ">\n";
+}
+
+void append_options(std::string& out, const PlannerOptions& options) {
+  const auto time = [](double time_s, const char* infinite) {
+    return std::isinf(time_s) ? std::string(infinite) : format_real(time_s);
+  };
+  out += "\t<algorithm>\n";
+  append_element(out, "allowanyangle", options.any_angle ? "true" : "false");
+  append_element(out, "connectedness", std::to_string(options.connectedness));
+  append_element(out, "prioritization", published_name(options.order));
+  append_element(out, "rescheduling", published_name(options.rescheduling));
+  append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));
+  append_element(out, "timelimit", time(options.time_limit_s, "-1"));
+  out += "\t</algorithm>\n";
+}
+
+void append_summary(std::string& out, const Instance& instance, const SolutionDocument& document) {
+  out += "\t\t<summary";
+  append_attribute(out, "runtime", document.planning_seconds);
+  append_attribute(out, "tries", static_cast<std::int64_t>(document.tries));
+  if (document.status == "solved") {
+    append_attribute(out, "agentssolved", std::to_string(instance.agents.size()) + " (100%)");
+  }
+  if (document.flowtime_s) append_attribute(out, "flowtime", *document.flowtime_s);
+  if (document.makespan_s) append_attribute(out, "makespan", *document.makespan_s);
+  append_attribute(out, "status", std::string_view(document.status));
+  append_attribute(out, "valid", std::string_view(document.valid ? "true" : "false"));
+  append_attribute(out, "expansions", static_cast<std::int64_t>(document.expansions));
+  append_attribute(out, "generations", static_cast<std::int64_t>(document.generations));
+  if (!document.plan_hash.empty()) append_attribute(out, "planhash", std::string_view(document.plan_hash));
+  if (document.options) {
+    append_attribute(out, "seed", std::string_view(std::to_string(document.options->seed)));
+  }
+  out += "/>\n";
+}
+
+void append_agent(std::string& out, const Agent& agent, const Trajectory& trajectory) {
+  out += "\t\t<agent";
+  append_attribute(out, "id", std::string_view(agent.id));
+  append_attribute(out, "start.x", std::int64_t{agent.start.x});
+  append_attribute(out, "start.y", std::int64_t{agent.start.y});
+  append_attribute(out, "goal.x", std::int64_t{agent.goal.x});
+  append_attribute(out, "goal.y", std::int64_t{agent.goal.y});
+  append_attribute(out, "size", agent.radius_cells);
+  append_attribute(out, "movespeed", agent.speed_cells_per_s);
+  append_attribute(out, "rotationspeed", agent.rotation_speed);
+  out += ">\n\t\t\t<path";
+  append_attribute(out, "pathfound", std::string_view("true"));
+  append_attribute(out, "duration", trajectory.arrival_s());
+  out += ">\n";
+  append_sections(out, trajectory, "\t\t\t\t");
+  out += "\t\t\t</path>\n\t\t</agent>\n";
+}
+
+std::uint64_t read_count(XmlReader& reader, xml_node node, const char* name) {
+  return static_cast<std::uint64_t>(reader.optional_real(node, name, kCounts).value_or(0));
+}
+
+void read_summary(XmlReader& reader, xml_node summary, SolutionDocument& document) {
+  document.planning_seconds = reader.optional_real(summary, "runtime", kTimes).value_or(0);
+  document.makespan_s = reader.optional_real(summary, "makespan", kTimes);
+  document.flowtime_s = reader.optional_real(summary, "flowtime", kTimes);
+  document.tries = read_count(reader, summary, "tries");
+  document.expansions = read_count(reader, summary, "expansions");
+  document.generations = read_count(reader, summary, "generations");
+  document.status = summary.attribute("status").as_string("solved");
+  if (document.status != "solved" && document.status != "failed" && document.status != "limit") {
+    reader.fail(summary, "status " + in_quotes(document.status), "solved, failed or limit");
+  }
+  document.valid = std::string_view(summary.attribute("valid").value()) == "true";
+  document.plan_hash = summary.attribute("planhash").value();
+  if (const auto seed = summary.attribute("seed"); seed && document.options) {
+    document.options->seed = seed.as_ullong();
+  }
+}
+
+void read_order(XmlReader& reader, xml_node node, const Instance& instance, std::vector<AgentIndex>& order) {
+  const std::string text = XmlReader::text_of(node);
+  std::string_view rest = trimmed(text);
+  while (!rest.empty()) {
+    const std::string_view token = rest.substr(0, rest.find_first_of(" \t\r\n"));
+    const auto agent = parse_integer(token);
+    if (!agent || *agent < 0 || static_cast<std::uint64_t>(*agent) >= instance.agents.size()) {
+      return reader.fail(node, in_quotes(token) + " in <order>", "the position of a robot, counted from 0");
+    }
+    order.push_back(static_cast<AgentIndex>(*agent));
+    rest = trimmed(rest.substr(token.size()));
+  }
+}
+
+/// Of the robot in this <agent>, in cells per second. The published log rounds it;
+/// where it stands for the instance's speed, that one counts.
+std::optional<double> speed_of(XmlReader& reader, xml_node element, const Instance& instance,
+                               std::size_t position) {
+  constexpr double kLogRounding = 1e-6;  // relative; 8 digits are written
+  constexpr NumberRange kSpeeds{kMinSpeedCellsPerS, kMaxSpeedCellsPerS, "a speed in cells per second"};
+  const std::optional<double> logged = reader.optional_real(element, "movespeed", kSpeeds);
+  if (!logged || position >= instance.agents.size()) return logged;
+  const double exact = instance.agents[position].speed_cells_per_s;
+  return std::abs(*logged - exact) <= kLogRounding * exact ? exact : *logged;
+}
+
+/// Leaves the solution empty when a robot has no path.
+void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance,
+                       SolutionDocument& document) {
+  TrajectoryCollector collector(instance);
+  std::size_t position = 0;
+  for (const xml_node element : log.children("agent")) {
+    const xml_node path = reader.only_child(element, "path");
+    if (!path) return reader.fail(element, "no <path> in <agent>", "one");
+    if (std::string_view(path.attribute("pathfound").as_string("true")) == "false") {
+      if (document.status == "solved") document.status = "failed";
+      return;
+    }
+    const SectionOptions options{speed_of(reader, element, instance, position), true};
+    const pugi::xml_attribute id = element.attribute("id");
+    Trajectory trajectory = read_sections(reader, path, options);
+    if (reader.failed()) return;
+    const std::string problem = collector.add(id ? std::optional<std::string>(id.value()) : std::nullopt,
+                                              position++, std::move(trajectory));
+    if (!problem.empty()) return reader.fail(element, problem, "one <agent> for each robot of the instance");
+  }
+  if (position == 0 && document.status != "solved") return;
+  if (const auto missing = collector.missing()) {
+    return reader.fail(log, "no <agent> for robot " + in_quotes(instance.agents[*missing].id),
+                       "one for each robot of the instance");
+  }
+  document.solution = collector.take();
+}
+
+}  // namespace
+
+std::string solution_to_xml(const Instance& instance, const SolutionDocument& document) {
+  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
+  PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
+  std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
+  append_instance_xml(out, instance);
+  if (document.options) append_options(out, *document.options);
+  out += "\t<log>\n";
+  append_summary(out, instance, document);
+  out += "\t\t<order>";
+  for (std::size_t i = 0; i < document.order.size(); ++i) {
+    out += (i > 0 ? " " : "") + std::to_string(document.order[i]);
+  }
+  out += "</order>\n";
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    append_agent(out, instance.agents[i], trajectories[i]);
+  }
+  out += "\t</log>\n</root>\n";
+  return out;
+}
+
+Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,
+                                           const Instance& instance) {
+  Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
+  if (!parsed) return Unexpected{parsed.error()};
+  XmlReader& reader = **parsed;
+  const xml_node log = reader.only_child(reader.root(), "log");
+  if (!log) reader.fail(reader.root(), "no <log> in <root>", "one with the trajectories");
+  SolutionDocument document;
+  if (const auto options = read_options(reader)) {
+    document.options.emplace();
+    apply(options->options, *document.options);
+  }
+  read_summary(reader, reader.only_child(log, "summary"), document);
+  read_order(reader, reader.only_child(log, "order"), instance, document.order);
+  if (!reader.failed()) read_trajectories(reader, log, instance, document);
+  if (reader.failed()) return Unexpected{reader.error()};
+  return document;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,279 @@
+// One picture of a solution: see svg.hpp. Robots and map are drawn in units of
+// cells inside a scaled group; title, legend and list of violations in pixels.
+#include "planner/io/svg.hpp"
+
+#include <algorithm>
+
+#include "planner/io/svg_paint.hpp"
+#include "planner/io/svg_violations.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab {
+namespace {
+
+// Pixels.
+constexpr double kWantedMapSide = 960;
+constexpr double kMaxCellSide = 56;
+constexpr double kMinCellSide = 2;
+constexpr double kMargin = 24;
+constexpr double kHeaderHeight = 96;
+constexpr double kMinPageWidth = 560;
+constexpr double kGridLinesFromCellSide = 9;
+constexpr double kIdsFromCellSide = 11;
+/// Smaller letters inside of a disk are not read: the id moves beside it.
+constexpr double kSmallestIdInside = 9;
+constexpr double kIdBeside = 12;
+
+constexpr std::size_t kMaxRobotsWithIds = 150;
+constexpr std::size_t kMaxRobotsWithIdsBeside = 40;
+
+constexpr const char* kGrey = "#7b8190";
+
+double cell_side_px(const GridMap& map) {
+  return std::clamp(kWantedMapSide / std::max(map.width(), map.height()), kMinCellSide, kMaxCellSide);
+}
+
+/// How much ink a robot gets, in cells and shares, by how many there are.
+struct Ink {
+  double line_cells = 0;
+  double line_opacity = 1;
+  double goal_opacity = 1;
+};
+
+Ink ink_for(std::size_t robots, double cell_px) {
+  Ink ink{0.13, 0.95, 0.9};
+  if (robots > 24) ink = {0.09, 0.8, 0.75};
+  if (robots > 150) ink = {0.06, 0.55, 0.6};
+  if (robots > 1000) ink = {0.05, 0.25, 0.5};
+  if (robots > 4000) ink = {0.05, 0.1, 0.4};
+  constexpr double kThinnestPx = 0.7;
+  ink.line_cells = std::max(ink.line_cells, kThinnestPx / cell_px);
+  return ink;
+}
+
+std::string text_of(Cell cell) { return "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ")"; }
+std::string seconds(double time_s) { return short_number(time_s) + " s"; }
+
+class Painter {
+ public:
+  Painter(const Instance& instance, const Solution& solution, const ValidationReport& report,
+          const SvgOptions& options)
+      : instance_(instance),
+        report_(report),
+        options_(options),
+        trajectories_(solution.trajectories),
+        solved_(solution.trajectories.size() == instance.agents.size()),
+        cell_px_(cell_side_px(instance.map)),
+        ink_(ink_for(instance.agents.size(), cell_px_)),
+        canvas_(cell_px_) {
+    // What has no trajectory rests at its start.
+    for (std::size_t i = trajectories_.size(); i < instance.agents.size(); ++i) {
+      trajectories_.push_back({instance.agents[i].start, {}});
+    }
+  }
+
+  std::string paint() {
+    open_page();
+    header();
+    open_world();
+    map();
+    obstacles();
+    lines();
+    ends();
+    draw_violation_marks(canvas_, {instance_, trajectories_, report_});
+    canvas_ << "</g>\n";
+    draw_violation_list(canvas_, report_, {kMargin, kHeaderHeight + map_height_px() + kMargin / 2});
+    canvas_ << "</svg>\n";
+    return canvas_.take();
+  }
+
+ private:
+  double map_width_px() const { return cell_px_ * instance_.map.width(); }
+  double map_height_px() const { return cell_px_ * instance_.map.height(); }
+
+  void open_page() {
+    const double width = std::max(map_width_px() + 2 * kMargin, kMinPageWidth);
+    const double height = kHeaderHeight + map_height_px() + kMargin + violation_list_height_px(report_);
+    canvas_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-labelledby=\"title description\"";
+    canvas_.attribute("width", width);
+    canvas_.attribute("height", height);
+    canvas_ << " viewBox=\"0 0 " << width << " " << height
+            << "\" font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\">\n<title id=\"title\">";
+    canvas_.label(options_.title);
+    canvas_ << "</title>\n<desc id=\"description\">";
+    canvas_.label(description());
+    canvas_ << "</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+  }
+
+  std::string description() const {
+    const auto count = [](std::size_t number, const char* thing) {
+      return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+    };
+    std::string words = count(instance_.agents.size(), "robot") + " on a map of " +
+                        std::to_string(instance_.map.width()) + " x " +
+                        std::to_string(instance_.map.height()) + " cells";
+    if (!solved_) words += ", no solution";
+    if (!report_.valid()) words += ", " + count(report_.violations.size(), "violation");
+    return words;
+  }
+
+  /// Title, line below it, legend.
+  void header() {
+    canvas_.text({kMargin, 30}, 19, "font-weight=\"bold\" fill=\"#1d2230\"", options_.title);
+    const std::string below = options_.subtitle.empty() ? description() : options_.subtitle;
+    canvas_.text({kMargin, 51}, 13, "fill=\"#4b5160\"", below);
+    canvas_ << "\n<g font-size=\"12\" fill=\"#4b5160\">";
+    double x = kMargin;
+    const auto entry = [&](const std::string& symbol, const std::string& words) {
+      constexpr double kY = 75;
+      constexpr double kSymbolPx = 24;
+      constexpr double kCharacterPx = 7;
+      constexpr double kGapPx = 18;
+      canvas_ << "<g transform=\"translate(" << x << " " << kY << ")\">" << symbol;
+      canvas_ << "<text x=\"24\" y=\"4\">" << words << "</text></g>";
+      x += kSymbolPx + kCharacterPx * static_cast<double>(words.size()) + kGapPx;
+    };
+    const std::string in_colour = "=\"" + robot_colour(0) + "\"";
+    entry("<circle cx=\"10\" r=\"7\" fill=\"#ffffff\" stroke-width=\"2\" stroke" + in_colour + "/>", "start");
+    entry("<circle cx=\"10\" r=\"8\" fill" + in_colour + "/>", "goal");
+    if (solved_) {
+      entry("<path d=\"M0 4L8 -4H20\" fill=\"none\" stroke-width=\"2.5\" stroke" + in_colour + "/>",
+            "trajectory");
+    }
+    entry("<rect x=\"3\" y=\"-7\" width=\"14\" height=\"14\" fill=\"#4b5160\"/>", "blocked");
+    const auto stroke = [](const char* colour) { return std::string(" stroke=\"") + colour + "\"/>"; };
+    if (!instance_.obstacles.empty()) {
+      entry("<path d=\"M0 0H20\" stroke-width=\"2\" stroke-dasharray=\"4 3\"" + stroke(kGrey),
+            "moving obstacle");
+    }
+    if (!report_.valid()) {
+      entry("<path d=\"M4 -6L16 6M16 -6L4 6\" stroke-width=\"3\"" + stroke(kViolationColour), "violation");
+    }
+    canvas_ << "</g>\n";
+  }
+
+  /// From here on one unit is one cell and the centre of cell (0, 0) is the origin.
+  void open_world() {
+    canvas_ << "<g stroke-linejoin=\"round\" stroke-linecap=\"round\" transform=\"translate("
+            << kMargin + cell_px_ / 2 << " " << kHeaderHeight + cell_px_ / 2 << ") scale("
+            << format_real(cell_px_) << ")\">\n";
+  }
+
+  void map() {
+    const auto frame = [this](const std::string& style) {
+      canvas_ << "<rect x=\"-.5\" y=\"-.5\"";
+      canvas_.attribute("width", instance_.map.width());
+      canvas_.attribute("height", instance_.map.height());
+      canvas_ << " " << style << "/>\n";
+    };
+    frame("fill=\"#fafbfc\"");
+    if (cell_px_ >= kGridLinesFromCellSide) draw_grid_lines(canvas_, instance_.map);
+    draw_blocked_cells(canvas_, instance_.map);
+    frame("fill=\"none\" stroke=\"#4b5160\" stroke-width=\"" + short_number(1.5 / cell_px_) + "\"");
+  }
+
+  void obstacles() {
+    for (const DynamicObstacle& obstacle : instance_.obstacles) {
+      const Trajectory& trajectory = obstacle.trajectory;
+      canvas_ << "<g>";
+      canvas_.tooltip("moving obstacle " + obstacle.id + ": radius " + format_real(obstacle.radius_cells) +
+                      ", " + text_of(trajectory.start) + " to " + text_of(trajectory.end()) + " until " +
+                      seconds(trajectory.arrival_s()));
+      canvas_ << "<polyline fill=\"none\" stroke=\"" << kGrey << "\" stroke-dasharray=\".35 .3\"";
+      canvas_.attribute("stroke-width", std::max(0.1, 1 / cell_px_));
+      canvas_ << " points=\"";
+      draw_points(canvas_, trajectory);
+      canvas_ << "\"/>";
+      const std::string grey = std::string("=\"") + kGrey + "\"";
+      canvas_.circle(
+          centre(trajectory.start), obstacle.radius_cells,
+          "fill=\"#d5d8de\" fill-opacity=\".7\" stroke-width=\".08\" stroke-dasharray=\".2 .15\" stroke" +
+              grey);
+      canvas_.circle(centre(trajectory.end()), obstacle.radius_cells, "fill-opacity=\".55\" fill" + grey);
+      canvas_ << "</g>\n";
+    }
+  }
+
+  std::string story(std::size_t i) const {
+    const Agent& agent = instance_.agents[i];
+    std::string words = "robot " + agent.id + ": " + text_of(agent.start) + " to " + text_of(agent.goal) +
+                        ", radius " + format_real(agent.radius_cells);
+    if (solved_) words += ", arrives at " + seconds(trajectories_[i].arrival_s());
+    return words;
+  }
+
+  /// All trajectories before all bodies, so that no line crosses a label.
+  void lines() {
+    canvas_ << "<g fill=\"none\"";
+    canvas_.attribute("stroke-width", ink_.line_cells);
+    canvas_.attribute("stroke-opacity", ink_.line_opacity);
+    canvas_ << ">\n";
+    for (std::size_t i = 0; i < instance_.agents.size(); ++i) {
+      if (trajectories_[i].motions.empty()) continue;
+      canvas_ << "<polyline stroke=\"" << robot_colour(i) << "\" points=\"";
+      draw_points(canvas_, trajectories_[i]);
+      canvas_ << "\">";
+      canvas_.tooltip(story(i));
+      canvas_ << "</polyline>\n";
+    }
+    canvas_ << "</g>\n";
+  }
+
+  /// Rings at the starts, disks at the goals, in true size.
+  void ends() {
+    const bool with_ids = instance_.agents.size() <= kMaxRobotsWithIds && cell_px_ >= kIdsFromCellSide;
+    for (std::size_t i = 0; i < instance_.agents.size(); ++i) {
+      const Agent& agent = instance_.agents[i];
+      const std::string in_colour = "=\"" + robot_colour(i) + "\"";
+      const double ring_cells = std::max(std::min(0.09, agent.radius_cells / 3), 0.6 / cell_px_);
+      canvas_ << "<g>";
+      canvas_.tooltip(story(i));
+      // The ring lies inside of the body, whose rim is its outer edge.
+      canvas_.circle(centre(agent.start), std::max(agent.radius_cells - ring_cells / 2, 0.01),
+                     "fill=\"#ffffff\" stroke" + in_colour + " fill-opacity=\"" +
+                         (with_ids ? "0.85" : "0.35") + "\" stroke-width=\"" + short_number(ring_cells) +
+                         "\"");
+      canvas_.circle(centre(agent.goal), agent.radius_cells,
+                     "fill" + in_colour + " fill-opacity=\"" + short_number(ink_.goal_opacity) + "\"");
+      if (with_ids) ids(agent, in_colour);
+      canvas_ << "</g>\n";
+    }
+  }
+
+  void ids(const Agent& agent, const std::string& in_colour) {
+    const double letters = std::max<double>(2, static_cast<double>(agent.id.size()));
+    const double inside_cells = std::min(1.1, 2.1 / letters) * agent.radius_cells;
+    if (inside_cells * cell_px_ >= kSmallestIdInside) {
+      const Vec2 down{0, 0.36 * inside_cells};  // half of a digit's height
+      const std::string middle = "text-anchor=\"middle\" fill";
+      canvas_.text(centre(agent.start) + down, inside_cells, middle + in_colour, agent.id);
+      canvas_.text(centre(agent.goal) + down, inside_cells, middle + "=\"#ffffff\"", agent.id);
+    } else if (instance_.agents.size() <= kMaxRobotsWithIdsBeside) {
+      const double size = kIdBeside / cell_px_;
+      const Vec2 aside{agent.radius_cells * 0.8 + 0.1 * size, -agent.radius_cells * 0.8};
+      const std::string haloed =
+          "font-weight=\"bold\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"" +
+          short_number(0.25 * size) + "\" fill" + in_colour;
+      canvas_.text(centre(agent.start) + aside, size, haloed, agent.id);
+      canvas_.text(centre(agent.goal) + aside, size, haloed, agent.id);
+    }
+  }
+
+  const Instance& instance_;
+  const ValidationReport& report_;
+  const SvgOptions& options_;
+  std::vector<Trajectory> trajectories_;
+  bool solved_;
+  double cell_px_;
+  Ink ink_;
+  SvgCanvas canvas_;
+};
+
+}  // namespace
+
+std::string draw_svg(const Instance& instance, const Solution& solution, const ValidationReport& report,
+                     const SvgOptions& options) {
+  return Painter(instance, solution, report, options).paint();
+}
+
+}  // namespace sipplab

@@ -1,0 +1,43 @@
+// Instances as files: see write_instance.hpp.
+#include "planner/io/write_instance.hpp"
+
+#include "planner/io/text.hpp"
+#include "planner/io/write_xml.hpp"
+
+namespace sipplab {
+
+std::string write_instance_xml(const Instance& instance) {
+  std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
+  append_instance_xml(out, instance);
+  out += "</root>\n";
+  return out;
+}
+
+std::string write_movingai_map(const GridMap& map) {
+  std::string out = "type octile\nheight " + std::to_string(map.height()) + "\nwidth " +
+                    std::to_string(map.width()) + "\nmap\n";
+  out.reserve(out.size() + map.cell_count() + static_cast<std::size_t>(map.height()));
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    for (std::int32_t x = 0; x < map.width(); ++x) out += map.is_blocked({x, y}) ? '@' : '.';
+    out += '\n';
+  }
+  return out;
+}
+
+std::string write_movingai_scen(const Instance& instance, const std::string& map_name) {
+  // Buckets group scenarios by length in the benchmark set: four cells each.
+  constexpr double kCellsPerBucket = 4;
+  std::string out = "version 1\n";
+  for (const Agent& agent : instance.agents) {
+    const double length_cells = distance(agent.start, agent.goal);
+    out += std::to_string(static_cast<int>(length_cells / kCellsPerBucket)) + "\t" + map_name;
+    for (const std::int32_t number : {instance.map.width(), instance.map.height(), agent.start.x,
+                                      agent.start.y, agent.goal.x, agent.goal.y}) {
+      out += "\t" + std::to_string(number);
+    }
+    out += "\t" + format_real(length_cells) + "\n";
+  }
+  return out;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,22 @@
+// Instances as files that load_instance reads back: AA-SIPP(m) XML in one file, or
+// MovingAI .map and .scen.
+#pragma once
+
+#include <string>
+
+#include "planner/instance/instance.hpp"
+
+namespace sipplab {
+
+/// Everything that an Instance holds; reading it back gives an equal one.
+std::string write_instance_xml(const Instance& instance);
+
+/// The map: `.` free, `@` blocked.
+std::string write_movingai_map(const GridMap& map);
+
+/// Starts and goals, on a map of this file name. The format has no place for ids,
+/// sizes, speeds, headings or obstacles; the optimal length is written as the
+/// straight distance.
+std::string write_movingai_scen(const Instance& instance, const std::string& map_name);
+
+}  // namespace sipplab

@@ -1,0 +1,29 @@
+// <section> lists, in which AA-SIPP(m)'s XML writes trajectories of dynamic obstacles
+// and of solutions.
+#pragma once
+
+#include <optional>
+
+#include "planner/io/xml_reader.hpp"
+#include "planner/solution/trajectory.hpp"
+
+namespace sipplab {
+
+struct SectionOptions {
+  /// Speed of the robot that made the sections, in cells per second. Sections
+  /// without exact times whose duration is length / speed to within the published
+  /// format's rounding get exactly that duration.
+  std::optional<double> speed_cells_per_s;
+  /// Take sections that do not join, or that change place in no time: for a
+  /// solution, which the validator will judge.
+  bool only_form = false;
+};
+
+/// The trajectory that the <section> children of `node` tell of, from time 0. Their
+/// durations are summed up, unless they carry begin and end, exact times that only
+/// our own files have. Waits that take no time are dropped. Errors go to the
+/// reader: values that do not parse, a negative duration, and, unless only the form
+/// counts, places that do not join and a change of place in no time.
+Trajectory read_sections(XmlReader& reader, pugi::xml_node node, const SectionOptions& options);
+
+}  // namespace sipplab

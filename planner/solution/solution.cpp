@@ -1,0 +1,30 @@
+// What a solution costs, and its name; see solution.hpp.
+#include "planner/solution/solution.hpp"
+
+#include <algorithm>
+
+#include "planner/instance/digest.hpp"
+
+namespace sipplab {
+
+double makespan_s(const Solution& solution) {
+  double latest_s = 0;
+  for (const Trajectory& trajectory : solution.trajectories)
+    latest_s = std::max(latest_s, trajectory.arrival_s());
+  return latest_s;
+}
+
+double flowtime_s(const Solution& solution) {
+  double sum_s = 0;
+  for (const Trajectory& trajectory : solution.trajectories) sum_s += trajectory.arrival_s();
+  return sum_s;
+}
+
+std::string plan_hash(const Solution& solution) {
+  Digest digest("sipplab plan 1");
+  digest.add(static_cast<std::uint64_t>(solution.trajectories.size()));
+  for (const Trajectory& trajectory : solution.trajectories) digest.add(trajectory);
+  return digest.hex();
+}
+
+}  // namespace sipplab

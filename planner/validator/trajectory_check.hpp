@@ -1,0 +1,22 @@
+// What one trajectory promises on its own: times, endpoints, continuity, speed and
+// a body on free cells.
+#pragma once
+
+#include <vector>
+
+#include "planner/instance/instance.hpp"
+#include "planner/solution/trajectory.hpp"
+#include "planner/validator/validator.hpp"
+
+namespace sipplab {
+
+/// Appends what is wrong with the trajectory of instance.agents[agent], in order of
+/// its motions, until `violations` holds `max_violations`. True when every time is
+/// a number that a plan can have, so that the trajectory can be compared with others.
+bool check_trajectory(const Instance& instance, AgentIndex agent, const Trajectory& trajectory,
+                      std::size_t max_violations, std::vector<Violation>& violations);
+
+/// How messages call an agent: its id, or its position where it has none.
+std::string agent_label(const Instance& instance, AgentIndex agent);
+
+}  // namespace sipplab

@@ -1,0 +1,87 @@
+// One robot alone: the one case in which everything is known.
+#include <rapidcheck.h>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "property_tests/support/generators.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Moves between 4-neighbours from one cell to another, by breadth-first search.
+std::optional<int> steps_between(const GridMap& map, Cell from, Cell to) {
+  std::vector<int> steps(map.cell_count(), -1);
+  std::deque<Cell> queue{from};
+  steps[map.index(from)] = 0;
+  while (!queue.empty()) {
+    const Cell cell = queue.front();
+    queue.pop_front();
+    if (cell == to) return steps[map.index(cell)];
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
+      const Cell next{cell.x + step.x, cell.y + step.y};
+      if (!map.contains(next) || map.is_blocked(next) || steps[map.index(next)] >= 0) continue;
+      steps[map.index(next)] = steps[map.index(cell)] + 1;
+      queue.push_back(next);
+    }
+  }
+  return std::nullopt;
+}
+
+/// A case of one robot of radius 0.5 and speed 1, and nothing that moves.
+PlanCase one_robot() {
+  PlanCase plan_case = *any_case_of(CaseFamily::kScattered);
+  RC_PRE(!plan_case.instance.agents.empty());
+  plan_case.instance.agents.resize(1);
+  plan_case.instance.obstacles.clear();
+  return plan_case;
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= rc::check("solved exactly when breadth-first search reaches the goal", [] {
+    const PlanCase plan_case = one_robot();
+    const Agent& agent = plan_case.instance.agents[0];
+    const PlanResult result = plan(plan_case.instance, plan_case.options);
+    const auto steps = steps_between(plan_case.instance.map, agent.start, agent.goal);
+    RC_ASSERT((result.status == PlanStatus::kSolved) == steps.has_value());
+    RC_CLASSIFY(!steps, "unreachable");
+    RC_CLASSIFY(plan_case.options.any_angle, "any-angle");
+  });
+
+  passed &= rc::check("no faster than the bird flies, no slower than breadth-first search", [] {
+    const PlanCase plan_case = one_robot();
+    const Agent& agent = plan_case.instance.agents[0];
+    const PlanResult result = plan(plan_case.instance, plan_case.options);
+    RC_PRE(result.status == PlanStatus::kSolved);
+    const double arrival_s = result.solution.trajectories[0].arrival_s();
+    // Rounding of sums of square roots.
+    constexpr double kRoundingS = 1e-9;
+    RC_ASSERT(arrival_s >= distance(agent.start, agent.goal) - kRoundingS);
+    RC_ASSERT(arrival_s <= *steps_between(plan_case.instance.map, agent.start, agent.goal) + kRoundingS);
+    if (!plan_case.options.any_angle && plan_case.options.connectedness == 2) {
+      RC_ASSERT(arrival_s == *steps_between(plan_case.instance.map, agent.start, agent.goal));
+    }
+  });
+
+  passed &= rc::check("any-angle goes straight where nothing is in the way", [] {
+    PlanCase plan_case = one_robot();
+    plan_case.options.any_angle = true;
+    GridMap& map = plan_case.instance.map;
+    map = GridMap(map.width(), map.height());
+    const Agent& agent = plan_case.instance.agents[0];
+    const PlanResult result = plan(plan_case.instance, plan_case.options);
+    RC_ASSERT(result.status == PlanStatus::kSolved);
+    RC_ASSERT(result.solution.trajectories[0].motions.size() == (agent.start == agent.goal ? 0u : 1u));
+  });
+
+  return passed ? 0 : 1;
+}

@@ -1,0 +1,36 @@
+// Cases drawn from families that are known to be hard for a planner. Times, sizes
+// and speeds come from lattices such as k/8: exact in a double, easy to draw.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "planner/core/random.hpp"
+#include "property_tests/support/plan_case.hpp"
+
+namespace sipplab {
+
+enum class CaseFamily {
+  kScattered,      ///< a few robots and blocked cells anywhere
+  kDense,          ///< more than half of the cells hold a robot
+  kCorridor,       ///< one cell wide, with bays to step aside
+  kContactStarts,  ///< robots that touch each other at time 0
+  kConvoy,         ///< a queue that moves on in contact
+  kMixedBodies,    ///< small and large, slow and fast
+};
+inline constexpr int kCaseFamilies = 6;
+std::string_view name(CaseFamily family);
+
+/// A case that keeps the rules of find_error. `size` from 0 to 100 bounds map and
+/// robots. The same seed gives the same case.
+PlanCase make_case(CaseFamily family, int size, std::uint64_t seed);
+
+/// k/8 for a uniform k in 0 .. 8 * limit.
+double draw_eighths(Random& random, std::uint64_t limit);
+/// Uniform over the cells of a map.
+Cell draw_cell(Random& random, const GridMap& map);
+double draw_radius(Random& random);
+double draw_speed(Random& random);
+
+}  // namespace sipplab
