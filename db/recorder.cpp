@@ -218,10 +218,10 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
 Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results) {
   auto insert = Statement::prepare(
       database_.connection(),
-      "INSERT INTO result (cell_id, instance_id, repetition, status, planning_time_ns, makespan_s, "
-      "flowtime_s, "
-      "tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, "
-      "limit_struck, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
+      "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
+      "peak_memory_bytes, "
+      "limit_struck, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the results of a case");
   if (!insert) return Unexpected{insert.error()};
   auto keys = InstanceKeys::prepare(database_.connection());
@@ -231,10 +231,11 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
     if (!instance_key) return Unexpected{instance_key.error()};
     std::optional<std::int64_t> plan_hash;
     if (row.plan_hash) plan_hash = to_bits(*row.plan_hash);
-    insert->bind(cell_id, *instance_key, row.repetition, static_cast<int>(row.status), row.planning_time_ns,
-                 row.makespan_s, row.flowtime_s, to_count(row.tries), to_count(row.expansions),
-                 to_count(row.generations), plan_hash, row.valid, row.violations, row.min_clearance_cells,
-                 row.peak_memory_bytes, null_if_empty(row.limit), null_if_empty(row.message));
+    insert->bind(cell_id, *instance_key, row.position, row.repetition, static_cast<int>(row.status),
+                 row.planning_time_ns, row.makespan_s, row.flowtime_s, to_count(row.tries),
+                 to_count(row.expansions), to_count(row.generations), plan_hash, row.valid, row.violations,
+                 row.min_clearance_cells, row.peak_memory_bytes, null_if_empty(row.limit),
+                 null_if_empty(row.message));
     if (auto done = insert->run(); !done) return done;
   }
   return Done{};

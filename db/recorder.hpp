@@ -60,7 +60,7 @@ class RunRecorder {
   /// Writes the buffered results of a case in one transaction and marks it as
   /// finished (a case without results too). After an error nothing of the case is
   /// in the file, its results are still buffered, and the call may be repeated.
-  /// Two results of one instance and repetition are an error.
+  /// Two results of one instance, position and repetition are an error.
   Result<Done> commit_case(const CaseInfo& parameters);
 
   /// Forgets the buffered results of a case.

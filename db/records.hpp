@@ -113,6 +113,9 @@ std::string_view name(ResultStatus status);
 
 /// What one planning of one instance gave.
 struct ResultRow {
+  /// Place of the instance in its set, counted from 0. A set may hold one instance
+  /// several times, as the archive of AAMAS 2018 does.
+  std::int64_t position = 0;
   std::int64_t repetition = 0;  ///< counted from 0
   ResultStatus status = ResultStatus::kFailed;
   std::int64_t planning_time_ns = 0;  ///< wall clock, planning alone

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "bench/cli/benchmark_flags.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/suites.hpp"
+#include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/interrupt.hpp"
 #include "bench/sweep/reporters.hpp"
@@ -143,7 +143,7 @@ db::Result<Resumption> find_resumption(db::Database& database, const db::RunInfo
   return resumption;
 }
 
-int report(const BenchArguments& arguments, const BenchmarkFlags& flags, bench::Sweep& sweep,
+int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, bench::Sweep& sweep,
            const std::string& suite, const std::string& database) {
   const auto& entries = sweep.entries();
   const bool finished =
@@ -167,7 +167,8 @@ int report(const BenchArguments& arguments, const BenchmarkFlags& flags, bench::
 }
 
 /// Opens the history, runs the cases that are to be run, and reports.
-int run_sweep(const BenchArguments& arguments, const BenchmarkFlags& flags, bench::ExpandedSweep cases) {
+int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags,
+              bench::ExpandedSweep cases) {
   const std::filesystem::path path = db::database_path(arguments.database);
   const db::RunInfo info = run_info(arguments, cases);
   auto database = db::Database::open(path);
@@ -211,7 +212,7 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   if (arguments.repetitions > 1) {
     benchmark_flags.push_back(fmt::format("--benchmark_repetitions={}", arguments.repetitions));
   }
-  const Expected<BenchmarkFlags, std::string> flags = initialize_benchmark(benchmark_flags);
+  const Expected<bench::BenchmarkFlags, std::string> flags = bench::initialize_benchmark(benchmark_flags);
   if (!flags) return fail(kBadUsage, "sipplab: " + flags.error());
   arguments.repetitions = flags->repetitions;
   if (arguments.json && !flags->format.empty()) {
@@ -222,7 +223,7 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
   std::vector<std::string> names;
   for (const bench::NamedCase& named : cases->cases) names.push_back(full_name(*cases, named));
-  const Expected<std::vector<bool>, std::string> matches = filter_matches(flags->filter, names);
+  const Expected<std::vector<bool>, std::string> matches = bench::filter_matches(flags->filter, names);
   if (!matches) return fail(kBadUsage, "sipplab: " + matches.error());
   std::size_t position = 0;
   keep_cases(*cases, [&matches, &position](const bench::NamedCase&) { return (*matches)[position++]; });

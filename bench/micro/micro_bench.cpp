@@ -139,8 +139,14 @@ struct Crowd {
   }
 };
 
+/// Planned once for all benchmarks.
+Crowd& the_crowd() {
+  static Crowd crowd;
+  return crowd;
+}
+
 void safe_intervals(benchmark::State& state) {
-  Crowd crowd;
+  Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
   const LineOfSight lines(crowd.instance.map, kDefaultRadiusCells);
   const std::vector<MovePair> moves = random_moves(crowd.instance.map, lines);
@@ -154,7 +160,7 @@ BENCHMARK(safe_intervals)->Name("reservation/safe_intervals");
 
 /// Argument: 0 for the indexed search of the table, 1 for its plain twin.
 void earliest_departure(benchmark::State& state) {
-  Crowd crowd;
+  Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
   const LineOfSight lines(crowd.instance.map, kDefaultRadiusCells);
   std::vector<Move> clear;
@@ -197,14 +203,14 @@ void search_in_an_empty_world(benchmark::State& state) {
 BENCHMARK(search_in_an_empty_world)->Name("search/empty")->Unit(benchmark::kMicrosecond);
 
 void search_in_a_crowd(benchmark::State& state) {
-  Crowd crowd;
+  Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
   search_once(state, crowd.instance, crowd.left_out, crowd.reservations);
 }
 BENCHMARK(search_in_a_crowd)->Name("search/crowded")->Unit(benchmark::kMicrosecond);
 
 void validate_a_plan(benchmark::State& state) {
-  const Crowd crowd;
+  const Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
   const ValidationOptions options{kDefaultSsi, crowd.result.order()};
   for ([[maybe_unused]] auto iteration : state) {

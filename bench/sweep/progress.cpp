@@ -70,8 +70,8 @@ std::string Progress::times() const {
 void Progress::draw() {
   if (!on_terminal_ || Clock::now() - drawn_ < kBetweenDraws) return;
   drawn_ = Clock::now();
-  std::string line = fmt::format("[{}/{}] {}, {}/{}, {}", case_number_, cases_, name_, case_instances_done_,
-                                 case_instances_, times());
+  std::string line = fmt::format("[{}/{}] {}: {}, instance {}/{}", case_number_, cases_, times(), name_,
+                                 std::min(case_instances_done_ + 1, case_instances_), case_instances_);
   line.resize(std::min(line.size(), terminal_width() - 1));  // a line that wraps cannot be taken back
   std::fputs(("\r\033[K" + line).c_str(), stderr);
   std::fflush(stderr);

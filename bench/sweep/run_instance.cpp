@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab::bench {
@@ -55,10 +54,8 @@ void add_verdict(const Instance& instance, const PlanResult& result, const Plann
 
 }  // namespace
 
-db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
+db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   constexpr double kNanosecondsPerSecond = 1e9;
-  const PlanResult result = plan(instance, options);
-
   db::ResultRow row;
   row.status = row_status(result.status);
   row.planning_time_ns = std::llround(result.planning_seconds * kNanosecondsPerSecond);
@@ -72,6 +69,10 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   row.plan_hash = leading_bits(plan_hash(result.solution));
   add_verdict(instance, result, options, row);
   return row;
+}
+
+db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
+  return judged(instance, options, plan(instance, options));
 }
 
 }  // namespace sipplab::bench

@@ -5,11 +5,15 @@
 #include "db/records.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/prioritized/options.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
 
 namespace sipplab::bench {
 
-/// The row of the history, repetition aside. A plan that the validator rejects has
-/// status invalid and the first violation as its message.
+/// The row of the history for what the planner returned, repetition aside. A plan that
+/// the validator rejects has status invalid and the first violation as its message.
+db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result);
+
+/// plan() and judged().
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options);
 
 }  // namespace sipplab::bench

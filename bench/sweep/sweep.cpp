@@ -100,8 +100,10 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
       state.SkipWithError("stopped before its end");
       break;
     }
-    const PreparedInstance& prepared = instances[next++];
+    const std::size_t position = next++;
+    const PreparedInstance& prepared = instances[position];
     db::ResultRow row = run_instance(prepared.instance, entry.parameters.options);
+    row.position = static_cast<std::int64_t>(position);
     row.repetition = entry.repetitions;
     state.SetIterationTime(static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond);
     if (row.status == db::ResultStatus::kInvalid && violation.empty()) {

@@ -191,6 +191,18 @@ equal "$(wc -l <err)" 1 "lines on stderr with stdout closed"
 { "$sipplab" plan --instance warehouse/0.xml --json 2>err; echo $? >code; } | :
 equal "$(cat code)" 2 "exit code when the reader has gone"
 
+# A disk that fills up during a sweep, where a small one can be mounted.
+mkdir full
+# shellcheck disable=SC2016
+if unshare --mount --map-root-user true 2>/dev/null &&
+  unshare --mount --map-root-user bash -c 'mount -t tmpfs -o size=400k none full &&
+    { "$0" bench --suite density --robots 8 --count 30 --max-restarts 0 --db full/history.db >/dev/null 2>err
+      echo $? >code; sqlite3 full/history.db "PRAGMA integrity_check" >integrity; }' "$sipplab" 2>/dev/null; then
+  equal "$(cat code)" 2 "exit code with the disk full"
+  says 'no space' err
+  equal "$(cat integrity)" ok "integrity with the disk full"
+fi
+
 # No permission: as somebody else where we are root.
 install -m 000 /dev/null secret.xml
 if [ "$(id -u)" -ne 0 ]; then

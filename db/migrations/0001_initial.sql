@@ -113,6 +113,7 @@ CREATE INDEX cell_by_case ON cell (case_id, run_id);
 CREATE TABLE result (
   cell_id             INTEGER NOT NULL REFERENCES cell,
   instance_id         INTEGER NOT NULL REFERENCES instance,
+  position            INTEGER NOT NULL CHECK (position >= 0),
   repetition          INTEGER NOT NULL CHECK (repetition >= 0),
   status              INTEGER NOT NULL CHECK (status BETWEEN 0 AND 3), -- solved, failed, limit, invalid
   planning_time_ns    INTEGER NOT NULL CHECK (planning_time_ns >= 0),
@@ -128,7 +129,7 @@ CREATE TABLE result (
   peak_memory_bytes   INTEGER,
   limit_struck        TEXT,
   message             TEXT,
-  PRIMARY KEY (cell_id, instance_id, repetition),
+  PRIMARY KEY (cell_id, instance_id, position, repetition),
   CHECK (status <> 0 OR (makespan_s IS NOT NULL AND flowtime_s IS NOT NULL AND valid = 1))
 ) STRICT, WITHOUT ROWID;
 
@@ -260,6 +261,7 @@ SELECT
   case_.seed                  AS seed,
   instance.name               AS instance,
   instance.content_hash       AS instance_hash,
+  result.position             AS position,
   result.repetition           AS repetition,
   CASE result.status WHEN 0 THEN 'solved' WHEN 1 THEN 'failed' WHEN 2 THEN 'limit' ELSE 'invalid' END
     AS status,
@@ -289,7 +291,7 @@ SELECT run, planning_time_s, status, environment, robots, ssi_s, reschedule, ini
 FROM v_results
 ORDER BY planning_time_ns DESC;
 
--- Pairs of results of the same case, instance and repetition in two runs, of which one
+-- Pairs of results of the same case, instance, position and repetition in two runs, of which one
 -- is solved and the other is not. Ask with both runs, or with one of them and a case.
 CREATE VIEW v_flips AS
 SELECT
@@ -305,6 +307,7 @@ SELECT
   case_.any_angle             AS any_angle,
   case_.connectedness         AS connectedness,
   instance.name               AS instance,
+  base.position               AS position,
   base.repetition             AS repetition,
   CASE base.status WHEN 0 THEN 'solved' WHEN 1 THEN 'failed' WHEN 2 THEN 'limit' ELSE 'invalid' END
     AS base_status,
@@ -320,7 +323,7 @@ JOIN cell AS head_cell ON head_cell.case_id = base_cell.case_id AND head_cell.ru
 JOIN run AS head_run ON head_run.id = head_cell.run_id
 JOIN result AS base ON base.cell_id = base_cell.id
 JOIN result AS head ON head.cell_id = head_cell.id AND head.instance_id = base.instance_id
-                   AND head.repetition = base.repetition
+                   AND head.position = base.position AND head.repetition = base.repetition
 JOIN case_ ON case_.id = base_cell.case_id
 JOIN instance ON instance.id = base.instance_id
 WHERE (base.status = 0) <> (head.status = 0);

@@ -38,6 +38,25 @@ int exit_code(pid_t child) {
 
 class Processes : public test::DatabaseTest {};
 
+/// Kills and collects a child, whatever way the test ends.
+class KillAtEnd {
+ public:
+  explicit KillAtEnd(pid_t child) : child_(child) {}
+  KillAtEnd(const KillAtEnd&) = delete;
+  KillAtEnd& operator=(const KillAtEnd&) = delete;
+  ~KillAtEnd() { now(); }
+
+  void now() {
+    if (child_ <= 0) return;
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+    child_ = 0;
+  }
+
+ private:
+  pid_t child_;
+};
+
 /// Records cases of `results` each, starting with `first`; reports each finished case
 /// as one byte through the pipe.
 int record_without_end(RunRecorder& recorder, std::int64_t first, int results, int pipe_end) {
@@ -141,6 +160,29 @@ TEST_F(Processes, eight_writers_and_two_readers_never_see_a_lock) {
   test::expect_sound(file);
 }
 
+TEST_F(Processes, a_fresh_file_is_made_by_eight_processes_at_once) {
+  constexpr int kRounds = 25;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto fresh = folder / fmt::format("{}.db", round);
+    std::array<int, 2> gate{};
+    ASSERT_EQ(pipe(gate.data()), 0);
+    std::vector<pid_t> children;
+    for (int i = 0; i < 8; ++i) {
+      children.push_back(start([&] {
+        close(gate[1]);
+        char byte = 0;
+        // Returns when the parent closes its end: for all at the same time.
+        if (read(gate[0], &byte, 1) != 0) return 1;
+        return Database::open(fresh) ? 0 : 2;
+      }));
+    }
+    close(gate[0]);
+    close(gate[1]);
+    for (const pid_t child : children) EXPECT_EQ(exit_code(child), 0);
+    test::expect_sound(fresh);
+  }
+}
+
 TEST_F(Processes, a_live_run_is_not_resumed_by_another_process) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
@@ -150,6 +192,7 @@ TEST_F(Processes, a_live_run_is_not_resumed_by_another_process) {
     pause();
     return 0;
   });
+  KillAtEnd writer{child};
   char byte = 0;
   ASSERT_EQ(read(ends[0], &byte, 1), 1);
   auto database = must(Database::open(file));
@@ -159,8 +202,7 @@ TEST_F(Processes, a_live_run_is_not_resumed_by_another_process) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("is being written"), std::string::npos);
 
-  kill(child, SIGKILL);
-  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  writer.now();
   EXPECT_TRUE(must(find_resumable_run(database, sample_run())));
   EXPECT_TRUE(RunRecorder::resume(must(Database::open(file)), uuid));
   close(ends[0]);

@@ -56,6 +56,7 @@ TEST_F(Recording, every_field_of_a_result_is_kept) {
   auto recorder = begin();
   const CaseInfo parameters = sample_case(64, 2.5);
   ResultRow row = sample_result(0);
+  row.position = 7;
   row.repetition = 3;
   row.makespan_s = 0.1 + 0.2;
   row.peak_memory_bytes = 123456789;
@@ -73,13 +74,14 @@ TEST_F(Recording, every_field_of_a_result_is_kept) {
   recorder.add(parameters, sample_instance(2), invalid);
   must(recorder.commit_case(parameters));
   EXPECT_EQ(ask(file,
-                "SELECT instance || '|' || instance_hash || '|' || repetition || '|' || status || '|' || "
+                "SELECT instance || '|' || instance_hash || '|' || position || '|' || repetition || '|' || "
+                "status || '|' || "
                 "planning_time_ns || '|' || tries || '|' || expansions || '|' || generations || '|' || "
                 "plan_hash || '|' || valid || '|' || violations || '|' || peak_memory_bytes || '|' || "
                 "ifnull(limit_struck, 'no limit') || '|' || ifnull(message, 'no message') "
                 "FROM v_results WHERE status = 'solved'"),
             "warehouse seed=1 "
-            "index=0|0000000000000001|3|solved|1000000|2|5000|20000|fedcba9876543210|1|0|123456789|"
+            "index=0|0000000000000001|7|3|solved|1000000|2|5000|20000|fedcba9876543210|1|0|123456789|"
             "no limit|no message");
   EXPECT_EQ(ask(file,
                 "SELECT count(*) FROM v_results WHERE makespan_s = 0.1 + 0.2 AND flowtime_s = 1000.0 "
@@ -179,7 +181,21 @@ TEST_F(Recording, nothing_of_a_case_is_there_before_it_is_committed) {
   EXPECT_EQ(ask(file, "SELECT status || (ended_utc >= started_utc) FROM v_runs"), "finished1");
 }
 
-TEST_F(Recording, two_results_of_one_instance_and_repetition_leave_nothing_of_the_case) {
+TEST_F(Recording, an_instance_that_a_set_holds_twice_is_recorded_twice) {
+  auto recorder = begin();
+  for (const std::int64_t position : {0, 1}) {
+    ResultRow row = sample_result(0);
+    row.position = position;
+    recorder.add(sample_case(64), sample_instance(0), row);
+  }
+  must(recorder.commit_case(sample_case(64)));
+  EXPECT_EQ(
+      ask(file,
+          "SELECT count(*) || '|' || count(DISTINCT instance_hash) || '|' || max(position) FROM v_results"),
+      "2|1|1");
+}
+
+TEST_F(Recording, two_results_of_one_instance_position_and_repetition_leave_nothing_of_the_case) {
   auto recorder = begin();
   recorder.add(sample_case(64), sample_instance(0), sample_result(0));
   recorder.add(sample_case(64), sample_instance(0), sample_result(0));
@@ -204,7 +220,9 @@ TEST_F(Recording, numbers_that_are_none_and_solved_without_costs_are_refused) {
   ResultRow row = sample_result(0);
   row.makespan_s = std::nan("");
   recorder.add(sample_case(1), sample_instance(0), row);
-  EXPECT_FALSE(recorder.commit_case(sample_case(1)));
+  const auto refused = recorder.commit_case(sample_case(1));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("NaN in a result"), std::string::npos) << refused.error().message;
   row.makespan_s.reset();
   recorder.add(sample_case(2), sample_instance(0), row);
   EXPECT_FALSE(recorder.commit_case(sample_case(2)));

@@ -3,6 +3,7 @@
 #include "planner/io/svg.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "planner/io/svg_paint.hpp"
 #include "planner/io/svg_violations.hpp"
@@ -21,7 +22,7 @@ constexpr double kMinPageWidth = 560;
 constexpr double kGridLinesFromCellSide = 9;
 constexpr double kIdsFromCellSide = 11;
 /// Smaller letters inside of a disk are not read: the id moves beside it.
-constexpr double kSmallestIdInside = 9;
+constexpr double kSmallestIdInside = 8;
 constexpr double kIdBeside = 12;
 
 constexpr std::size_t kMaxRobotsWithIds = 150;
@@ -65,6 +66,7 @@ class Painter {
         solved_(solution.trajectories.size() == instance.agents.size()),
         cell_px_(cell_side_px(instance.map)),
         ink_(ink_for(instance.agents.size(), cell_px_)),
+        with_ids_(instance.agents.size() <= kMaxRobotsWithIds && cell_px_ >= kIdsFromCellSide),
         canvas_(cell_px_) {
     // What has no trajectory rests at its start.
     for (std::size_t i = trajectories_.size(); i < instance.agents.size(); ++i) {
@@ -79,7 +81,8 @@ class Painter {
     map();
     obstacles();
     lines();
-    ends();
+    goals();
+    starts();
     draw_violation_marks(canvas_, {instance_, trajectories_, report_});
     canvas_ << "</g>\n";
     draw_violation_list(canvas_, report_, {kMargin, kHeaderHeight + map_height_px() + kMargin / 2});
@@ -219,43 +222,58 @@ class Painter {
     canvas_ << "</g>\n";
   }
 
-  /// Rings at the starts, disks at the goals, in true size.
-  void ends() {
-    const bool with_ids = instance_.agents.size() <= kMaxRobotsWithIds && cell_px_ >= kIdsFromCellSide;
+  /// Disks at the goals, in true size.
+  void goals() {
     for (std::size_t i = 0; i < instance_.agents.size(); ++i) {
       const Agent& agent = instance_.agents[i];
       const std::string in_colour = "=\"" + robot_colour(i) + "\"";
-      const double ring_cells = std::max(std::min(0.09, agent.radius_cells / 3), 0.6 / cell_px_);
       canvas_ << "<g>";
       canvas_.tooltip(story(i));
-      // The ring lies inside of the body, whose rim is its outer edge.
-      canvas_.circle(centre(agent.start), std::max(agent.radius_cells - ring_cells / 2, 0.01),
-                     "fill=\"#ffffff\" stroke" + in_colour + " fill-opacity=\"" +
-                         (with_ids ? "0.85" : "0.35") + "\" stroke-width=\"" + short_number(ring_cells) +
-                         "\"");
       canvas_.circle(centre(agent.goal), agent.radius_cells,
                      "fill" + in_colour + " fill-opacity=\"" + short_number(ink_.goal_opacity) + "\"");
-      if (with_ids) ids(agent, in_colour);
+      id(agent, agent.goal, agent.radius_cells, in_colour, "=\"#ffffff\"");
       canvas_ << "</g>\n";
     }
   }
 
-  void ids(const Agent& agent, const std::string& in_colour) {
+  /// Rings at the starts, in true size; smaller where a goal would be hidden.
+  void starts() {
+    std::set<Cell> goal_cells;
+    for (const Agent& agent : instance_.agents) goal_cells.insert(agent.goal);
+    for (std::size_t i = 0; i < instance_.agents.size(); ++i) {
+      const Agent& agent = instance_.agents[i];
+      const std::string in_colour = "=\"" + robot_colour(i) + "\"";
+      const double ring_cells = std::max(std::min(0.09, agent.radius_cells / 3), 0.6 / cell_px_);
+      constexpr double kShareOverGoal = 0.66;
+      const double radius = agent.radius_cells * (goal_cells.count(agent.start) != 0 ? kShareOverGoal : 1);
+      canvas_ << "<g>";
+      canvas_.tooltip(story(i));
+      // The ring lies inside of the body, whose rim is its outer edge.
+      canvas_.circle(centre(agent.start), std::max(radius - ring_cells / 2, 0.01),
+                     "fill=\"#ffffff\" stroke" + in_colour + " fill-opacity=\"" +
+                         (with_ids_ ? "0.85" : "0.35") + "\" stroke-width=\"" + short_number(ring_cells) +
+                         "\"");
+      id(agent, agent.start, radius, in_colour, in_colour);
+      canvas_ << "</g>\n";
+    }
+  }
+
+  /// The robot's id within a disk of this radius, or beside it where it is too small.
+  void id(const Agent& agent, Cell cell, double radius, const std::string& in_colour,
+          const std::string& in_disk) {
+    if (!with_ids_) return;
     const double letters = std::max<double>(2, static_cast<double>(agent.id.size()));
-    const double inside_cells = std::min(1.1, 2.1 / letters) * agent.radius_cells;
+    const double inside_cells = std::min(1.1, 2.1 / letters) * radius;
     if (inside_cells * cell_px_ >= kSmallestIdInside) {
       const Vec2 down{0, 0.36 * inside_cells};  // half of a digit's height
-      const std::string middle = "text-anchor=\"middle\" fill";
-      canvas_.text(centre(agent.start) + down, inside_cells, middle + in_colour, agent.id);
-      canvas_.text(centre(agent.goal) + down, inside_cells, middle + "=\"#ffffff\"", agent.id);
+      canvas_.text(centre(cell) + down, inside_cells, "text-anchor=\"middle\" fill" + in_disk, agent.id);
     } else if (instance_.agents.size() <= kMaxRobotsWithIdsBeside) {
       const double size = kIdBeside / cell_px_;
       const Vec2 aside{agent.radius_cells * 0.8 + 0.1 * size, -agent.radius_cells * 0.8};
-      const std::string haloed =
-          "font-weight=\"bold\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"" +
-          short_number(0.25 * size) + "\" fill" + in_colour;
-      canvas_.text(centre(agent.start) + aside, size, haloed, agent.id);
-      canvas_.text(centre(agent.goal) + aside, size, haloed, agent.id);
+      canvas_.text(centre(cell) + aside, size,
+                   "font-weight=\"bold\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"" +
+                       short_number(0.25 * size) + "\" fill" + in_colour,
+                   agent.id);
     }
   }
 
@@ -266,6 +284,7 @@ class Painter {
   bool solved_;
   double cell_px_;
   Ink ink_;
+  bool with_ids_;
   SvgCanvas canvas_;
 };
 

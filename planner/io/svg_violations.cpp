@@ -38,25 +38,48 @@ std::optional<OtherBody> other_body(const ViolationScene& scene, const Violation
                    is_start ? centre(agent.start) : position_at(scene.trajectories[other], violation.time_s)};
 }
 
-/// "1: 3 and 5, depth 0.2", beside the mark and inside of the map.
-void draw_label(SvgCanvas& canvas, const ViolationScene& scene, const std::string& words, Vec2 mark,
-                double radius_cells) {
-  const double size = std::max(0.42, 12 / canvas.cell_px());
-  constexpr double kCharacterWidth = 0.64;  // of the font's size, bold
-  const double width = kCharacterWidth * size * static_cast<double>(words.size());
-  const double last_x = std::max(-0.4, scene.instance.map.width() - 0.6 - width);
-  const double x = std::clamp(mark.x - width / 2, -0.4, last_x);
-  double y = mark.y - radius_cells - 0.6 * size;
-  if (y < size) y = mark.y + radius_cells + 1.5 * size;
-  canvas << "<rect fill=\"#ffffff\" fill-opacity=\".85\"";
-  canvas.attribute("x", x - 0.2 * size);
-  canvas.attribute("y", y - size);
-  canvas.attribute("width", width + 0.4 * size);
-  canvas.attribute("height", 1.35 * size);
-  canvas.attribute("rx", 0.25 * size);
-  canvas << "/>";
-  canvas.text({x, y}, size, std::string("font-weight=\"bold\" fill=\"") + kViolationColour + "\"", words);
-}
+/// Places labels near their marks, inside of the map and not on each other.
+class LabelPlacer {
+ public:
+  LabelPlacer(double cell_px, const GridMap& map) : size_(kLabelPx / cell_px), map_(map) {}
+
+  /// Height of the letters, in cells.
+  double size() const { return size_; }
+
+  struct Box {
+    double left = 0, top = 0, width = 0, height = 0;
+
+    bool overlaps(const Box& other) const {
+      return left < other.left + other.width && other.left < left + width && top < other.top + other.height &&
+             other.top < top + height;
+    }
+  };
+
+  /// A free place above or below the mark, the nearest one; if all are taken, the first.
+  Box place(std::size_t letters, Vec2 mark, double radius_cells) {
+    constexpr double kLetterWidth = 0.66;  // of the font's size, bold
+    Box box{0, 0, (kLetterWidth * static_cast<double>(letters) + 0.4) * size_, 1.4 * size_};
+    const double right_most = std::max(-0.5, map_.width() - 0.5 - box.width);
+    box.left = std::clamp(mark.x - box.width / 2, -0.5, right_most);
+    constexpr int kSteps = 12;
+    for (int step = 0; step < kSteps; ++step) {
+      const double away = radius_cells + (1.5 * (step / 2) + 0.2) * size_;
+      box.top = step % 2 == 0 ? mark.y - away - box.height : mark.y + away;
+      const bool inside = box.top >= -0.5 && box.top + box.height <= map_.height() - 0.5;
+      const auto hits = [&box](const Box& other) { return other.overlaps(box); };
+      if (inside && std::none_of(placed_.begin(), placed_.end(), hits)) break;
+    }
+    placed_.push_back(box);
+    return box;
+  }
+
+ private:
+  static constexpr double kLabelPx = 13;
+
+  double size_;
+  const GridMap& map_;
+  std::vector<Box> placed_;
+};
 
 void draw_cross(SvgCanvas& canvas, Vec2 at) {
   const double arm = std::max(0.22, 5 / canvas.cell_px());
@@ -66,38 +89,76 @@ void draw_cross(SvgCanvas& canvas, Vec2 at) {
   canvas << "M" << at.x - arm << " " << at.y + arm << "L" << at.x + arm << " " << at.y - arm << "\"/>";
 }
 
+/// Where a violation is and whom it concerns.
+struct Mark {
+  Vec2 at;
+  double radius_cells = 0;
+  std::string words;
+};
+
+Mark mark_of(const ViolationScene& scene, std::size_t number) {
+  const Violation& violation = scene.report.violations[number];
+  const Agent& agent = scene.instance.agents[violation.agent];
+  Mark mark{position_at(scene.trajectories[violation.agent], violation.time_s), agent.radius_cells,
+            std::to_string(number + 1) + ": " + agent.id};
+  if (const auto other = other_body(scene, violation)) {
+    // Between the two, where their rims would touch.
+    const double share = agent.radius_cells / (agent.radius_cells + other->radius_cells);
+    mark.at = mark.at + (other->at - mark.at) * share;
+    mark.words += " and " + other->name;
+  }
+  mark.words += ", depth " + short_number(violation.depth_cells);
+  return mark;
+}
+
+bool is_drawable(const ViolationScene& scene, std::size_t number) {
+  return scene.report.violations[number].agent < scene.instance.agents.size();
+}
+
 void draw_mark(SvgCanvas& canvas, const ViolationScene& scene, std::size_t number) {
   const Violation& violation = scene.report.violations[number];
-  if (violation.agent >= scene.instance.agents.size()) return;
-  const Agent& agent = scene.instance.agents[violation.agent];
   const Vec2 at = position_at(scene.trajectories[violation.agent], violation.time_s);
   const std::string colour = std::string("=\"") + kViolationColour + "\"";
   const std::string body = "stroke" + colour + " fill" + colour + " fill-opacity=\".22\" stroke-width=\"" +
                            short_number(std::max(0.06, 1 / canvas.cell_px())) + "\"";
   canvas << "<g>";
   canvas.tooltip(violation.message);
-  canvas.circle(at, agent.radius_cells, body);
-  Vec2 mark = at;
-  std::string words = std::to_string(number + 1) + ": " + agent.id;
-  if (const auto other = other_body(scene, violation)) {
-    canvas.circle(other->at, other->radius_cells, body);
-    mark = at + (other->at - at) * (agent.radius_cells / (agent.radius_cells + other->radius_cells));
-    words += " and " + other->name;
-  }
-  draw_cross(canvas, mark);
-  if (number < kMaxListed) {
-    draw_label(canvas, scene, words + ", depth " + short_number(violation.depth_cells), mark,
-               agent.radius_cells);
-  }
+  canvas.circle(at, scene.instance.agents[violation.agent].radius_cells, body);
+  if (const auto other = other_body(scene, violation)) canvas.circle(other->at, other->radius_cells, body);
+  draw_cross(canvas, mark_of(scene, number).at);
   canvas << "</g>\n";
+}
+
+void draw_label(SvgCanvas& canvas, LabelPlacer& placer, const Mark& mark) {
+  const LabelPlacer::Box box = placer.place(mark.words.size(), mark.at, mark.radius_cells);
+  const bool above = box.top < mark.at.y;
+  const Vec2 anchor{std::clamp(mark.at.x, box.left, box.left + box.width),
+                    above ? box.top + box.height : box.top};
+  canvas << "<path stroke=\"" << kViolationColour << "\"";
+  canvas.attribute("stroke-width", 1 / canvas.cell_px());
+  canvas << " d=\"M" << mark.at.x << " " << mark.at.y << "L" << anchor.x << " " << anchor.y << "\"/>";
+  canvas << "<rect fill=\"#ffffff\" fill-opacity=\".88\"";
+  canvas.attribute("x", box.left);
+  canvas.attribute("y", box.top);
+  canvas.attribute("width", box.width);
+  canvas.attribute("height", box.height);
+  canvas.attribute("rx", 0.25 * placer.size());
+  canvas << "/>";
+  canvas.text({box.left + 0.2 * placer.size(), box.top + 1.05 * placer.size()}, placer.size(),
+              std::string("font-weight=\"bold\" fill=\"") + kViolationColour + "\"", mark.words);
+  canvas << "\n";
 }
 
 }  // namespace
 
 void draw_violation_marks(SvgCanvas& canvas, const ViolationScene& scene) {
-  // Backwards, so that the first one, which a person reads first, lies on top.
-  for (std::size_t i = std::min(scene.report.violations.size(), kMaxMarked); i > 0; --i) {
-    draw_mark(canvas, scene, i - 1);
+  const std::size_t count = std::min(scene.report.violations.size(), kMaxMarked);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_drawable(scene, i)) draw_mark(canvas, scene, i);
+  }
+  LabelPlacer placer(canvas.cell_px(), scene.instance.map);
+  for (std::size_t i = 0; i < std::min(count, kMaxListed); ++i) {
+    if (is_drawable(scene, i)) draw_label(canvas, placer, mark_of(scene, i));
   }
 }
 

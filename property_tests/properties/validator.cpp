@@ -196,7 +196,7 @@ int main() {
                       [] { agrees_on_the_map(*any_scene()); });
 
   passed &= rc::check("intrusions into protected starts agree with sampling", [] {
-    const double ssi_s = *rc::gen::element(0.125, 0.5, 1.0, 2.5, 7.0, kInfiniteSsi);
+    const double ssi_s = *rc::gen::element(0.125, 0.5, 2.5, 7.0, kInfiniteSsi, kInfiniteSsi, kInfiniteSsi);
     agrees_on_protected_starts(*any_scene(), ssi_s);
   });
 

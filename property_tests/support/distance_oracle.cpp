@@ -88,7 +88,7 @@ Leg leg_at(Vec2 place) { return {place, place, 0, kForever}; }
 double closest_approach(const Leg& a, const Leg& b) {
   const double begin_s = std::max(a.begin_s, b.begin_s);
   const double end_s = std::min(a.end_s, b.end_s);
-  if (begin_s > end_s) return std::numeric_limits<double>::infinity();
+  if (begin_s > end_s + time_rounding_s(begin_s)) return std::numeric_limits<double>::infinity();
   // Seen from one of two points in uniform motion, the other one runs along a segment.
   const Vec2 at_begin = place_at(b, begin_s) - place_at(a, begin_s);
   if (end_s == kForever) return norm(at_begin);
@@ -100,11 +100,15 @@ double distance_at(Vec2 place, const MovingDisk& disk, double time_s) {
   return norm(place_at(leg_of(disk), time_s) - place);
 }
 
-double rounding_cells(double time_s, double speed) {
+double time_rounding_s(double time_s) {
   constexpr double kUnits = 8;
+  return kUnits * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time_s));
+}
+
+double rounding_cells(double time_s, double speed) {
   /// Of coordinates and of roots of sums of their squares.
   constexpr double kPlaceCells = 1e-11;
-  return kPlaceCells + kUnits * std::numeric_limits<double>::epsilon() * std::abs(time_s) * speed;
+  return kPlaceCells + time_rounding_s(time_s) * speed;
 }
 
 BisectedSpan bisect_departures(const Move& move, const MovingDisk& disk, double reach) {

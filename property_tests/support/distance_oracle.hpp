@@ -22,8 +22,9 @@ Leg leg_of(const Move& move, double departure_s);
 /// At rest during [0, infinity).
 Leg leg_at(Vec2 place);
 
-/// Least distance of the two over the time that both legs last, both ends included, in
-/// cells; infinite where there is no such time. A convex function of a departure.
+/// Least distance of the two over the time that both legs last, both ends included up to
+/// rounding, in cells; infinite where there is no such time. A convex function of a
+/// departure.
 double closest_approach(const Leg& a, const Leg& b);
 
 /// Distance of `place` and the disk's centre at a time; infinite where the disk is not
@@ -34,15 +35,17 @@ double distance_at(Vec2 place, const MovingDisk& disk, double time_s);
 /// moves the end of a collision interval.
 inline constexpr double kPermittedDepthCells = kTouchDepthCells + kContactSlackCells;
 
+/// What rounding does to sums of times as large as `time_s`: a few units in the last place.
+double time_rounding_s(double time_s);
 /// What rounding does to a distance, in cells, when times as large as `time_s` are
-/// multiplied by speeds that add up to `speed`: a few units in the last place.
+/// multiplied by speeds that add up to `speed`.
 double rounding_cells(double time_s, double speed);
 
 /// The span of unsafe times and how it was found.
 struct BisectedSpan {
   double begin_s = 0;
   double end_s = 0;
-  double deepest_s = 0;       ///< the time of the least distance ...
+  double deepest_s = 0;       ///< a time of the least distance, or of overlap by half the reach ...
   double least_cells = 0;     ///< ... and that distance
   bool empty = true;          ///< overlap nowhere deeper than kTouchDepthCells
   bool contact_begin = true;  ///< else the span begins where the disk's motion does

@@ -16,7 +16,8 @@ constexpr std::int32_t kFarSide = 60;
 constexpr double kLateS = 1e4;
 
 rc::Gen<Cell> any_place() {
-  return rc::gen::weightedOneOf<Cell>({{4, any_cell(kNearSide, kNearSide)}, {1, any_cell(kFarSide, kFarSide)}});
+  return rc::gen::weightedOneOf<Cell>(
+      {{4, any_cell(kNearSide, kNearSide)}, {1, any_cell(kFarSide, kFarSide)}});
 }
 
 void print(std::ostream& out, Cell cell) { out << "(" << cell.x << ", " << cell.y << ")"; }
@@ -25,15 +26,17 @@ void print(std::ostream& out, Cell cell) { out << "(" << cell.x << ", " << cell.
 
 rc::Gen<Cell> any_cell(std::int32_t width, std::int32_t height) {
   // At every size: rapidcheck narrows ranges when sizes are small.
-  return rc::gen::resize(rc::kNominalSize, rc::gen::apply([](std::int32_t x, std::int32_t y) { return Cell{x, y}; },
-                                                          rc::gen::inRange<std::int32_t>(0, width),
-                                                          rc::gen::inRange<std::int32_t>(0, height)));
+  return rc::gen::resize(rc::kNominalSize, rc::gen::apply(
+                                               [](std::int32_t x, std::int32_t y) {
+                                                 return Cell{x, y};
+                                               },
+                                               rc::gen::inRange<std::int32_t>(0, width),
+                                               rc::gen::inRange<std::int32_t>(0, height)));
 }
 
 rc::Gen<double> any_radius() {
-  return rc::gen::resize(
-      rc::kNominalSize,
-      any_of({0.5, 0.5, 0.5, 0.5, 0.25, 0.75, 1.0, 0.3, 0.4, 0.7, 1.5, 2.5, 0.001}));
+  return rc::gen::resize(rc::kNominalSize,
+                         any_of({0.5, 0.5, 0.5, 0.5, 0.25, 0.75, 1.0, 0.3, 0.4, 0.7, 1.5, 2.5, 0.001}));
 }
 
 rc::Gen<double> any_speed() {
@@ -61,7 +64,8 @@ std::ostream& operator<<(std::ostream& out, const Encounter& encounter) {
   out << " radius " << encounter.radius << " speed " << encounter.speed << ", obstacle ";
   print(out, encounter.obstacle_from);
   out << " radius " << encounter.obstacle_radius << " from " << encounter.begin_s << " s ";
-  if (encounter.obstacle_from == encounter.obstacle_to) return out << "resting for " << encounter.rest_s << " s";
+  if (encounter.obstacle_from == encounter.obstacle_to)
+    return out << "resting for " << encounter.rest_s << " s";
   print(out << "-> ", encounter.obstacle_to);
   return out << " speed " << encounter.obstacle_speed;
 }
@@ -73,8 +77,8 @@ rc::Gen<Encounter> any_encounter() {
   const auto any_drawn = rc::gen::build<Encounter>(
       rc::gen::set(&Encounter::from, any_place()), rc::gen::set(&Encounter::to, any_place()),
       rc::gen::set(&Encounter::speed, any_pace), rc::gen::set(&Encounter::radius, any_radius()),
-      rc::gen::set(&Encounter::obstacle_from, any_place()), rc::gen::set(&Encounter::obstacle_to, any_place()),
-      rc::gen::set(&Encounter::obstacle_speed, any_pace),
+      rc::gen::set(&Encounter::obstacle_from, any_place()),
+      rc::gen::set(&Encounter::obstacle_to, any_place()), rc::gen::set(&Encounter::obstacle_speed, any_pace),
       rc::gen::set(&Encounter::obstacle_radius, any_radius()), rc::gen::set(&Encounter::begin_s, any_begin),
       rc::gen::set(&Encounter::rest_s, any_of({1.0, 0.125, 7.5, kForever})));
   return rc::gen::map(rc::gen::pair(any_drawn, rc::gen::inRange(0, 8)), [](std::pair<Encounter, int> drawn) {
@@ -90,7 +94,8 @@ rc::Gen<Encounter> any_encounter() {
 }
 
 rc::Gen<std::vector<Encounter>> any_encounters() {
-  return rc::gen::container<std::vector<Encounter>>(any_encounter());
+  // Cheap to check, so four times as many as rapidcheck would draw.
+  return rc::gen::scale(4.0, rc::gen::container<std::vector<Encounter>>(any_encounter()));
 }
 
 Trajectory Walk::trajectory() const {

@@ -59,8 +59,8 @@ rc::Gen<std::vector<Encounter>> any_encounters();
 /// An obstacle's walk: straight motions, each at its own speed, and waits.
 struct Walk {
   struct Step {
-    Cell to;             ///< where the walk is already: wait
-    double speed = 1;    ///< of a motion
+    Cell to;                ///< where the walk is already: wait
+    double speed = 1;       ///< of a motion
     double wait_s = 0.125;  ///< of a wait
   };
   Cell start;

@@ -153,6 +153,13 @@ TEST(FindError, FindsOverlapsOfLargeAndSmallBodies) {
   EXPECT_NE(error_of(instance), "");
 }
 
+TEST(FindError, NamesTheFirstOfSeveralOverlappedStarts) {
+  Instance instance = instance_of(
+      "......\n......\n......\n......\nrobot 2 1 to 0 0\nrobot 3 2 to 0 1\nrobot 3 1 to 4 1 radius 1.25\n");
+  EXPECT_EQ(error_of(instance),
+            "agent 2: start (3, 1) overlaps the start of agent 0, expected starts that at most touch");
+}
+
 TEST(FindError, AgreesWithAllPairsOnRandomStarts) {
   Random random(7);
   int wrong_pairs = 0;

@@ -84,6 +84,22 @@ TEST(ValidatorStartSafe, InfiniteLetsARobotRunThroughItsOwnGoalAndComeBack) {
   EXPECT_TRUE(crossing.report().valid());
 }
 
+TEST(ValidatorStartSafe, InfiniteSeesAStartBeyondTheOwnGoal) {
+  // Through the goal at (5, 1), over the start at (8, 1), and back another way.
+  Crossing crossing(kInfiniteSsi);
+  crossing.instance.agents[0].goal = {5, 1};
+  crossing.instance.agents[1].start = {8, 1};
+  crossing.instance.agents[1].goal = {8, 9};
+  crossing.solution.trajectories[0] = {
+      {0, 1},
+      {{0, 9, {0, 1}, {9, 1}}, {9, 12, {9, 1}, {9, 4}}, {12, 16, {9, 4}, {5, 4}}, {16, 19, {5, 4}, {5, 1}}}};
+  crossing.solution.trajectories[1] = {{8, 1}, {{0, 8, {8, 1}, {8, 9}}}};
+  const ValidationReport report = crossing.report();
+  ASSERT_EQ(report.violations.size(), 1u);
+  EXPECT_DOUBLE_EQ(report.violations[0].depth_cells, 1);
+  EXPECT_DOUBLE_EQ(report.violations[0].time_s, 8);
+}
+
 TEST(ValidatorStartSafe, InfiniteFindsTheDeepestPlaceOutsideTheOwnGoal) {
   // Contact at 2: the goal is at (8, 3), the protected start at (6, 3). On the way from
   // (2, 3) the robot enters its goal's disk at (6, 3), on top of that start.

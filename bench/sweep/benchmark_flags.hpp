@@ -8,7 +8,7 @@
 
 #include "planner/core/expected.hpp"
 
-namespace sipplab::cli {
+namespace sipplab::bench {
 
 /// What a sweep needs to know of the flags.
 struct BenchmarkFlags {
@@ -27,4 +27,4 @@ Expected<BenchmarkFlags, std::string> initialize_benchmark(const std::vector<std
 Expected<std::vector<bool>, std::string> filter_matches(const std::string& filter,
                                                         const std::vector<std::string>& names);
 
-}  // namespace sipplab::cli
+}  // namespace sipplab::bench

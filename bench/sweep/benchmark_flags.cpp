@@ -1,4 +1,4 @@
-#include "bench/cli/benchmark_flags.hpp"
+#include "bench/sweep/benchmark_flags.hpp"
 
 #include <benchmark/benchmark.h>
 #include <regex.h>
@@ -12,7 +12,7 @@
 
 #include "planner/io/text.hpp"
 
-namespace sipplab::cli {
+namespace sipplab::bench {
 namespace {
 
 const std::map<std::string_view, std::vector<std::string_view>> kChoices = {
@@ -107,4 +107,4 @@ Expected<std::vector<bool>, std::string> filter_matches(const std::string& filte
   return matches;
 }
 
-}  // namespace sipplab::cli
+}  // namespace sipplab::bench

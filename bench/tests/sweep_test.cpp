@@ -1,0 +1,168 @@
+// What a sweep promises before anything is run or recorded: verdicts, names, the order
+// of files, filters, and which cases a request means.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bench/suites.hpp"
+#include "bench/sweep/benchmark_flags.hpp"
+#include "bench/sweep/case_outcome.hpp"
+#include "bench/sweep/expand.hpp"
+#include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/run_instance.hpp"
+#include "planner/generator/generator.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+Instance small_instance() {
+  GeneratorOptions options;
+  options.agents = 6;
+  return generate_instance(warehouse_map(), options).value();
+}
+
+TEST(Judged, ASolvedPlanIsRecordedWithItsFigures) {
+  const Instance instance = small_instance();
+  const PlannerOptions options;
+  const PlanResult result = plan(instance, options);
+  const db::ResultRow row = judged(instance, options, result);
+  EXPECT_EQ(row.status, db::ResultStatus::kSolved);
+  EXPECT_EQ(row.valid, true);
+  EXPECT_EQ(row.makespan_s, makespan_s(result.solution));
+  EXPECT_EQ(row.flowtime_s, flowtime_s(result.solution));
+  EXPECT_TRUE(row.plan_hash.has_value());
+  EXPECT_EQ(row.tries, result.tries());
+}
+
+TEST(Judged, APlanThatTheValidatorRejectsIsNeverSolved) {
+  const Instance instance = small_instance();
+  const PlannerOptions options;
+  PlanResult result = plan(instance, options);
+  ASSERT_EQ(result.status, PlanStatus::kSolved);
+  const auto moving = std::find_if(result.solution.trajectories.begin(), result.solution.trajectories.end(),
+                                   [](const Trajectory& trajectory) { return !trajectory.motions.empty(); });
+  ASSERT_NE(moving, result.solution.trajectories.end());
+  moving->motions.pop_back();  // never gets to its goal
+  const db::ResultRow row = judged(instance, options, result);
+  EXPECT_EQ(row.status, db::ResultStatus::kInvalid);
+  EXPECT_EQ(row.valid, false);
+  EXPECT_GT(row.violations, 0);
+  EXPECT_FALSE(row.message.empty());
+}
+
+TEST(Judged, ALimitNamesItself) {
+  PlannerOptions options;
+  options.max_expansions = 1;
+  const db::ResultRow row = run_instance(small_instance(), options);
+  EXPECT_EQ(row.status, db::ResultStatus::kLimit);
+  EXPECT_EQ(row.limit, "expansions");
+  EXPECT_EQ(row.makespan_s, std::nullopt);
+}
+
+TEST(CaseOutcome, MeansOfPlansAreOverSolvedInstancesAlone) {
+  CaseOutcome outcome;
+  EXPECT_EQ(outcome.mean_makespan_s(), std::nullopt);
+  db::ResultRow row;
+  row.status = db::ResultStatus::kSolved;
+  row.planning_time_ns = 1'000'000'000;
+  row.makespan_s = 10;
+  row.flowtime_s = 30;
+  row.tries = 1;
+  outcome.add(row);
+  row.status = db::ResultStatus::kLimit;
+  row.planning_time_ns = 3'000'000'000;
+  row.makespan_s.reset();
+  row.tries = 3;
+  outcome.add(row);
+  EXPECT_DOUBLE_EQ(outcome.success_rate(), 0.5);
+  EXPECT_EQ(outcome.mean_makespan_s(), 10.0);
+  EXPECT_DOUBLE_EQ(outcome.mean_planning_s(), 2);
+  EXPECT_DOUBLE_EQ(outcome.mean_tries(), 2);
+  EXPECT_EQ(outcome.limited(), 1);
+}
+
+TEST(NaturalOrder, NumbersInNamesCountAsNumbers) {
+  std::vector<std::string> names = {"10.xml", "2.xml", "a10b2", "a2b10", "1.xml", "a10b1", "a"};
+  std::sort(names.begin(), names.end(), natural_less);
+  EXPECT_EQ(names, (std::vector<std::string>{"1.xml", "2.xml", "10.xml", "a", "a2b10", "a10b1", "a10b2"}));
+  EXPECT_FALSE(natural_less("7.xml", "7.xml"));
+}
+
+TEST(Filter, IsThatOfGoogleBenchmark) {
+  const std::vector<std::string> names = {"plan/empty/agents:8", "plan/warehouse/agents:16"};
+  EXPECT_EQ(filter_matches("", names).value(), (std::vector<bool>{true, true}));
+  EXPECT_EQ(filter_matches("all", names).value(), (std::vector<bool>{true, true}));
+  EXPECT_EQ(filter_matches("agents:(8|9)$", names).value(), (std::vector<bool>{true, false}));
+  EXPECT_EQ(filter_matches("-empty", names).value(), (std::vector<bool>{false, true}));
+  EXPECT_FALSE(filter_matches("(", names).has_value());
+}
+
+TEST(Expand, EveryCaseOfEverySuiteHasItsOwnName) {
+  for (const Suite& suite : suites()) {
+    SweepRequest request;
+    request.suite = &suite;
+    request.count = 1;
+    const auto sweep = expand(request);
+    ASSERT_TRUE(sweep.has_value()) << sweep.error();
+    std::set<std::string> names;
+    for (const NamedCase& named : sweep->cases) EXPECT_TRUE(names.insert(named.name).second) << named.name;
+    EXPECT_GT(names.size(), 10u) << suite.name;
+  }
+}
+
+TEST(Expand, ReplacedDimensionsTakeTheSuitesPlace) {
+  SweepRequest request;
+  request.suite = find_suite("density");
+  request.map = "empty:8x8";
+  request.robots = {2};
+  request.ssi_s = {2.5, kInfiniteSsi};
+  request.reschedules = {Rescheduling::kNone};
+  request.any_angle = false;
+  request.connectedness = {3};
+  request.count = 2;
+  const auto sweep = expand(request);
+  ASSERT_TRUE(sweep.has_value()) << sweep.error();
+  // Both blocks of the suite now mean the same, which is done once.
+  ASSERT_EQ(sweep->cases.size(), 2u);
+  EXPECT_EQ(sweep->cases[0].name,
+            "plan/empty:8x8/agents:2/ssi:2.5/reschedule:none/order:shortest/planner:grid-8");
+  EXPECT_EQ(sweep->cases[1].name,
+            "plan/empty:8x8/agents:2/ssi:inf/reschedule:none/order:shortest/planner:grid-8");
+  ASSERT_EQ(sweep->sets.size(), 1u);
+  EXPECT_EQ(sweep->sets[0].instances.size(), 2u);
+  EXPECT_EQ(case_row(sweep->cases[0].parameters).ssi_s, 2.5);
+}
+
+TEST(Expand, RandomReschedulingOfThePaperIsRunWithTenSeeds) {
+  SweepRequest request;
+  request.suite = find_suite("paper");
+  request.count = 1;
+  request.map = "warehouse";
+  request.robots = {16};
+  request.ssi_s = {5};
+  request.orders = {InitialOrder::kShortestFirst};
+  request.reschedules = {Rescheduling::kRandom, Rescheduling::kDeterministic};
+  const auto sweep = expand(request);
+  ASSERT_TRUE(sweep.has_value()) << sweep.error();
+  std::set<std::uint64_t> seeds;
+  for (const NamedCase& named : sweep->cases) {
+    if (named.name.find("/seed:") != std::string::npos) seeds.insert(named.parameters.options.seed);
+  }
+  EXPECT_EQ(seeds.size(), 10u);
+}
+
+TEST(GenerateSet, AnInstanceDoesNotDependOnTheCount) {
+  const auto few = generate_set("random:12x12:0.1", 5, 2, 9);
+  const auto many = generate_set("random:12x12:0.1", 5, 4, 9);
+  ASSERT_TRUE(few.has_value() && many.has_value());
+  EXPECT_EQ(few->instances[1].row.content_hash, many->instances[1].row.content_hash);
+  EXPECT_NE(many->instances[1].row.content_hash, many->instances[2].row.content_hash);
+  EXPECT_EQ(few->environment, "random");
+  EXPECT_FALSE(generate_set("empty:2x2", 5, 1, 1).has_value());
+}
+
+}  // namespace
+}  // namespace sipplab::bench

@@ -1,0 +1,113 @@
+// Distances over the 2^k neighbourhoods against Dijkstra's algorithm on an empty grid.
+#include "planner/grid/neighbourhood.hpp"
+
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "planner/grid/grid_map.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/exhaustive_search.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Rounding of sums of square roots.
+constexpr double kRoundingCells = 1e-9;
+/// Cells from the middle of the grid to its border, and farthest displacement looked at:
+/// a shortest way does not leave the rectangle around it by more than one step.
+constexpr std::int32_t kHalfSide = 16;
+constexpr std::int32_t kFarthest = 12;
+
+/// Lengths of shortest ways from the middle of a square grid.
+std::vector<double> shortest_ways(const GridMap& map, Cell from, int k) {
+  std::vector<double> length(map.cell_count(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  length[map.index(from)] = 0;
+  queue.emplace(0, map.index(from));
+  while (!queue.empty()) {
+    const auto [here, index] = queue.top();
+    queue.pop();
+    if (here > length[index]) continue;
+    const Cell cell = map.cell(index);
+    for (const Cell step : mediant_neighbourhood(k)) {
+      const Cell next{cell.x + step.x, cell.y + step.y};
+      if (!map.contains(next)) continue;
+      const double there = here + distance(cell, next);
+      if (there >= length[map.index(next)]) continue;
+      length[map.index(next)] = there;
+      queue.emplace(there, map.index(next));
+    }
+  }
+  return length;
+}
+
+/// By k.
+std::vector<std::vector<double>> shortest_ways_of_all(const GridMap& map, Cell from) {
+  std::vector<std::vector<double>> ways(kMaxConnectedness + 1);
+  for (int k = kMinConnectedness; k <= kMaxConnectedness; ++k) {
+    ways[static_cast<std::size_t>(k)] = shortest_ways(map, from, k);
+  }
+  return ways;
+}
+
+Cell any_far_cell() {
+  constexpr std::int32_t kSide = 8192;
+  return *any_cell(kSide, kSide);
+}
+
+bool nearly(double a, double b) { return std::abs(a - b) <= kRoundingCells * (1 + std::abs(b)); }
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= rc::check("neighbourhood_distance: is what Dijkstra's algorithm finds on an empty grid", [] {
+    static const GridMap kMap(2 * kHalfSide + 1, 2 * kHalfSide + 1);
+    static const Cell kMiddle{kHalfSide, kHalfSide};
+    static const std::vector<std::vector<double>> kWays = shortest_ways_of_all(kMap, kMiddle);
+    const Cell drawn = *any_cell(2 * kFarthest + 1, 2 * kFarthest + 1);
+    const Cell to{drawn.x + kHalfSide - kFarthest, drawn.y + kHalfSide - kFarthest};
+    for (int k = kMinConnectedness; k <= kMaxConnectedness; ++k) {
+      const double expected = kWays[static_cast<std::size_t>(k)][kMap.index(to)];
+      RC_ASSERT(nearly(neighbourhood_distance(kMiddle, to, k), expected));
+      RC_ASSERT(nearly(neighbourhood_distance(to, kMiddle, k), expected));
+    }
+  });
+
+  passed &= rc::check("neighbourhood_distance: one step never saves more than its length", [] {
+    const Cell from = any_far_cell();
+    const Cell to = any_far_cell();
+    const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
+    const double whole = neighbourhood_distance(from, to, k);
+    for (const Cell step : neighbourhood(k)) {
+      const Cell next{from.x + step.x, from.y + step.y};
+      RC_ASSERT(whole <= distance(from, next) + neighbourhood_distance(next, to, k) + kRoundingCells);
+    }
+  });
+
+  passed &= rc::check("neighbourhood_distance: more neighbours shorten ways, down to the straight line", [] {
+    const Cell from = any_far_cell();
+    const Cell to = any_far_cell();
+    double shorter = distance(from, to);
+    for (int k = kMaxConnectedness; k >= kMinConnectedness; --k) {
+      const double way = neighbourhood_distance(from, to, k);
+      RC_ASSERT(way >= shorter - kRoundingCells);
+      RC_ASSERT(way == neighbourhood_distance(to, from, k));
+      shorter = way;
+    }
+    RC_ASSERT(neighbourhood_distance(from, from, kMaxConnectedness) == 0);
+  });
+
+  return passed ? 0 : 1;
+}

@@ -1,0 +1,290 @@
+// The reservation table against its plain twin, single collision intervals and
+// distances.
+#include "planner/reservation/reservation_table.hpp"
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <ostream>
+#include <vector>
+
+#include "planner/geometry/collision_interval.hpp"
+#include "planner/grid/line_of_sight.hpp"
+#include "property_tests/support/distance_oracle.hpp"
+#include "property_tests/support/encounters.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr std::int32_t kWidth = 7;
+constexpr std::int32_t kHeight = 6;
+/// Cells. No robot that asks is larger.
+constexpr double kLargestRadius = 1.5;
+
+/// A resting disk that may be removed again, as protected starts are.
+struct Guard {
+  Cell place;
+  double begin_s = 0;
+  double rest_s = 5;  ///< may be kForever
+  double radius = 0.5;
+  bool removed = false;
+
+  MovingDisk disk() const { return MovingDisk::resting(centre(place), begin_s, begin_s + rest_s, radius); }
+};
+
+struct Traffic {
+  std::vector<Cell> blocked;
+  std::vector<Guard> guards;
+  std::vector<Walk> walks;
+};
+
+/// What a robot asks: when to leave for another cell.
+struct Query {
+  Cell from;
+  Cell to;
+  double radius = 0.5;
+  double speed = 1;
+  double from_s = 0;
+  double until_s = 10;  ///< may be kForever
+
+  Move move() const { return {Displacement(centre(from), centre(to)), speed}; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Traffic& traffic) {
+  for (const Cell cell : traffic.blocked) out << "blocked (" << cell.x << ", " << cell.y << ")\n";
+  for (const Guard& guard : traffic.guards) {
+    out << (guard.removed ? "removed " : "") << "guard (" << guard.place.x << ", " << guard.place.y
+        << ") radius " << guard.radius << " from " << guard.begin_s << " for " << guard.rest_s << "\n";
+  }
+  for (const Walk& walk : traffic.walks) out << walk << "\n";
+  return out;
+}
+
+std::ostream& operator<<(std::ostream& out, const Query& query) {
+  return out << "(" << query.from.x << ", " << query.from.y << ") -> (" << query.to.x << ", " << query.to.y
+             << ") radius " << query.radius << " speed " << query.speed << " in [" << query.from_s << ", "
+             << query.until_s << "]";
+}
+
+rc::Gen<double> any_asking_radius() { return any_of({0.5, 0.5, 0.25, 1.0, kLargestRadius, 0.3}); }
+
+template <class Value>
+rc::Gen<std::vector<Value>> up_to(std::size_t most, const rc::Gen<Value>& any) {
+  return rc::gen::mapcat(
+      rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::size_t>(0, most + 1)),
+      [any](std::size_t count) { return rc::gen::container<std::vector<Value>>(count, any); });
+}
+
+rc::Gen<Traffic> any_traffic() {
+  const auto any_guard = rc::gen::build<Guard>(
+      rc::gen::set(&Guard::place, any_cell(kWidth, kHeight)),
+      rc::gen::set(&Guard::begin_s, any_of({0.0, 0.0, 1.5})),
+      rc::gen::set(&Guard::rest_s, any_of({5.0, 1.0, 2.5, kForever})),
+      rc::gen::set(&Guard::radius, any_radius()), rc::gen::set(&Guard::removed, rc::gen::arbitrary<bool>()));
+  return rc::gen::build<Traffic>(rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
+                                 rc::gen::set(&Traffic::guards, up_to(4, any_guard)),
+                                 rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))));
+}
+
+rc::Gen<std::vector<Query>> any_queries() {
+  const auto any_query = rc::gen::build<Query>(
+      rc::gen::set(&Query::from, any_cell(kWidth, kHeight)),
+      rc::gen::set(&Query::to, any_cell(kWidth, kHeight)), rc::gen::set(&Query::radius, any_asking_radius()),
+      rc::gen::set(&Query::speed, any_speed()), rc::gen::set(&Query::from_s, any_eighths(4)),
+      rc::gen::set(&Query::until_s, any_of({10.0, 2.0, 4.5, kForever})));
+  return up_to(40, any_query);
+}
+
+/// A table with everything in it, and what it ought to hold.
+class Filled {
+ public:
+  explicit Filled(const Traffic& traffic) : map_(kWidth, kHeight), table_(map_, kLargestRadius) {
+    for (const Cell cell : traffic.blocked) map_.set_blocked(cell, true);
+    fill(traffic);
+  }
+
+  /// Adds guards, then walks, removes some guards half way through, and asks for safe
+  /// intervals in between, so that they have to be kept up to date.
+  void fill(const Traffic& traffic) {
+    std::vector<ReservationTable::DiskId> ids;
+    for (const Guard& guard : traffic.guards) {
+      ids.push_back(table_.add(guard.disk()));
+      disks_.push_back(guard.disk());
+    }
+    ask_everywhere(0.5);
+    for (std::size_t i = 0; i < traffic.walks.size(); ++i) {
+      if (i == traffic.walks.size() / 2) ask_everywhere(i % 2 == 0 ? 0.5 : 1.0);
+      add(traffic.walks[i]);
+    }
+    std::vector<MovingDisk> left;
+    for (std::size_t i = 0; i < disks_.size(); ++i) {
+      if (i < ids.size() && traffic.guards[i].removed) {
+        table_.remove(ids[i]);
+      } else {
+        left.push_back(disks_[i]);
+      }
+    }
+    disks_ = left;
+    ask_everywhere(0.5);
+    // Once more after a removal.
+    if (!traffic.walks.empty()) add(traffic.walks.front());
+  }
+
+  void clear() {
+    table_.clear();
+    disks_.clear();
+  }
+
+  const GridMap& map() const { return map_; }
+  ReservationTable& table() { return table_; }
+  const std::vector<MovingDisk>& disks() const { return disks_; }
+
+ private:
+  void add(const Walk& walk) {
+    const Trajectory trajectory = walk.trajectory();
+    table_.add(trajectory, walk.radius);
+    for (const MovingDisk& disk : disks_of(trajectory, walk.radius)) disks_.push_back(disk);
+  }
+
+  void ask_everywhere(double radius) {
+    for (std::size_t i = 0; i < map_.cell_count(); ++i) table_.safe_intervals(map_.cell(i), radius);
+  }
+
+  GridMap map_;
+  ReservationTable table_;
+  std::vector<MovingDisk> disks_;
+};
+
+void intervals_are_cut_by_every_disk(Filled& filled) {
+  std::size_t points = 0;
+  for (const double radius : {0.5, kLargestRadius, 0.25, 0.5}) {
+    for (std::size_t i = 0; i < filled.map().cell_count(); ++i) {
+      const Cell cell = filled.map().cell(i);
+      if (filled.map().is_blocked(cell)) continue;
+      IntervalSet expected;
+      for (const MovingDisk& disk : filled.disks()) {
+        expected.remove_open(collision_interval(centre(cell), disk, radius + disk.radius));
+      }
+      RC_LOG() << "cell (" << cell.x << ", " << cell.y << ") radius " << radius << std::endl;
+      RC_ASSERT(filled.table().safe_intervals(cell, radius) == expected.intervals());
+      for (const Interval& interval : expected.intervals()) {
+        points += interval.end_s - interval.begin_s < 4 * kContactSlackCells;
+      }
+    }
+  }
+  RC_CLASSIFY(points > 0, "some single points");
+}
+
+/// Queries that a robot could pose: two different cells and nothing blocked between.
+std::vector<Query> posed(const std::vector<Query>& queries, const GridMap& map) {
+  std::vector<Query> kept;
+  for (const Query& query : queries) {
+    const LineOfSight line_of_sight(map, query.radius);
+    if (query.from == query.to) continue;
+    if (!line_of_sight.is_legal(query.from) || !line_of_sight.is_legal(query.to)) continue;
+    if (line_of_sight.is_clear(query.from, query.to)) kept.push_back(query);
+  }
+  return kept;
+}
+
+void agrees_with_plain_twin(Filled& filled, const std::vector<Query>& queries) {
+  int delayed = 0;
+  for (const Query& query : posed(queries, filled.map())) {
+    const Move move = query.move();
+    const double indexed_s =
+        filled.table().earliest_departure(move, query.radius, query.from_s, query.until_s);
+    const double plain_s =
+        filled.table().earliest_departure_plain(move, query.radius, query.from_s, query.until_s);
+    RC_LOG() << query << std::endl;
+    RC_ASSERT(indexed_s == plain_s || (indexed_s > query.until_s && plain_s > query.until_s));
+    delayed += indexed_s > query.from_s;
+  }
+  RC_CLASSIFY(delayed > 0, "some have to wait");
+}
+
+/// Overlap of a move with all disks. Where the two are there together for no time that
+/// counts, nothing is said.
+double deepest_overlap(const std::vector<MovingDisk>& disks, const Query& query, double departure_s) {
+  const Move move = query.move();
+  double deepest = -kForever;
+  for (const MovingDisk& disk : disks) {
+    const double together_s =
+        std::min(disk.end_s, departure_s + move.duration) - std::max(disk.begin_s, departure_s);
+    if (together_s <= kContactSlackCells) continue;
+    const double apart = closest_approach(leg_of(move, departure_s), leg_of(disk));
+    deepest = std::max(deepest, query.radius + disk.radius - apart);
+  }
+  return deepest;
+}
+
+void is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
+  /// Seconds: between departures that are tried, and the last of them.
+  constexpr double kTryStepS = 1.0 / 16;
+  constexpr double kTryUntilS = 25;
+  /// Later than a safe departure by more than this is too late.
+  constexpr double kToleranceS = 1e-6;
+  int found = 0;
+  int given_up = 0;
+  for (const Query& query : posed(queries, filled.map())) {
+    const double departure_s =
+        filled.table().earliest_departure(query.move(), query.radius, query.from_s, query.until_s);
+    RC_LOG() << query << ": " << departure_s << std::endl;
+    RC_ASSERT(departure_s >= query.from_s);
+    if (departure_s <= query.until_s && departure_s < kForever) {
+      const double rounding = rounding_cells(departure_s, 4);
+      RC_ASSERT(deepest_overlap(filled.disks(), query, departure_s) <= kPermittedDepthCells + rounding);
+      ++found;
+    } else {
+      ++given_up;
+    }
+    const double before_s = std::min({departure_s - kToleranceS, query.until_s, kTryUntilS});
+    for (double tried_s = query.from_s; tried_s < before_s; tried_s += kTryStepS) {
+      RC_LOG() << "tried " << tried_s << std::endl;
+      RC_ASSERT(deepest_overlap(filled.disks(), query, tried_s) > -rounding_cells(tried_s, 4));
+    }
+  }
+  RC_CLASSIFY(found > 0, "some departures");
+  RC_CLASSIFY(given_up > 0, "some without");
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &=
+      rc::check("safe_intervals: all time less the collision intervals of every disk, after any changes", [] {
+        Filled filled(*any_traffic());
+        intervals_are_cut_by_every_disk(filled);
+      });
+
+  passed &= rc::check("earliest_departure: the same as its plain twin", [] {
+    Filled filled(*any_traffic());
+    agrees_with_plain_twin(filled, *any_queries());
+  });
+
+  passed &= rc::check("earliest_departure: safe by distances, and nothing earlier on the lattice is", [] {
+    Filled filled(*any_traffic());
+    is_the_earliest_safe(filled, *any_queries());
+  });
+
+  passed &= rc::check("clear: nothing of the time before is remembered", [] {
+    Filled filled(*any_traffic());
+    filled.clear();
+    intervals_are_cut_by_every_disk(filled);
+    const auto queries = *any_queries();
+    for (const Query& query : posed(queries, filled.map())) {
+      RC_ASSERT(filled.table().earliest_departure(query.move(), query.radius, query.from_s, query.until_s) ==
+                query.from_s);
+    }
+    const Traffic traffic = *any_traffic();
+    filled.fill({{}, traffic.guards, traffic.walks});
+    intervals_are_cut_by_every_disk(filled);
+    agrees_with_plain_twin(filled, queries);
+  });
+
+  return passed ? 0 : 1;
+}

@@ -1,0 +1,291 @@
+// SIPP and AA-SIPP for one robot against an exhaustive search.
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <vector>
+
+#include "planner/grid/line_of_sight.hpp"
+#include "planner/search/sipp_search.hpp"
+#include "property_tests/support/distance_oracle.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/exact_line_of_sight.hpp"
+#include "property_tests/support/exhaustive_search.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each; another way is
+/// later or earlier by far more.
+constexpr double kArrivalS = 1e-6;
+/// Cells. Rounding of sums of square roots.
+constexpr double kRoundingS = 1e-9;
+
+constexpr std::int32_t kWidth = 5;
+constexpr std::int32_t kHeight = 4;
+
+/// One robot on a small map among walking obstacles. Blocked cells and obstacles that
+/// the start or the goal do not allow are left out.
+struct World {
+  std::vector<Cell> blocked;
+  std::vector<Walk> walks;
+  Cell start;
+  Cell goal;
+  Fraction radius;
+  double speed = 1;
+  int connectedness = 2;
+
+  Instance instance() const {
+    Instance instance;
+    instance.map = GridMap(kWidth, kHeight);
+    for (const Cell cell : blocked) {
+      if (cell != start && cell != goal) instance.map.set_blocked(cell, true);
+    }
+    Agent agent;
+    agent.start = start;
+    agent.goal = goal;
+    agent.radius_cells = radius.value();
+    agent.speed_cells_per_s = speed;
+    instance.agents.push_back(agent);
+    for (const Walk& walk : walks) {
+      if (distance(walk.start, start) < walk.radius + radius.value()) continue;
+      DynamicObstacle obstacle;
+      obstacle.radius_cells = walk.radius;
+      obstacle.trajectory = walk.trajectory();
+      instance.obstacles.push_back(obstacle);
+    }
+    return instance;
+  }
+
+  LoneRobot robot() const { return {start, goal, radius, speed, connectedness}; }
+};
+
+std::ostream& operator<<(std::ostream& out, const World& world) {
+  for (const Cell cell : world.blocked) out << "blocked (" << cell.x << ", " << cell.y << ")\n";
+  for (const Walk& walk : world.walks) out << walk << "\n";
+  return out << "(" << world.start.x << ", " << world.start.y << ") -> (" << world.goal.x << ", "
+             << world.goal.y << ") radius " << world.radius.value() << " speed " << world.speed
+             << " connectedness " << world.connectedness;
+}
+
+/// Radii of one half and less, so that every free cell can be stood on.
+rc::Gen<Fraction> any_slim_radius() { return any_of<Fraction>({{1, 2}, {1, 2}, {1, 4}, {3, 10}, {2, 5}}); }
+
+template <class Value>
+rc::Gen<std::vector<Value>> up_to(std::size_t most, const rc::Gen<Value>& any) {
+  return rc::gen::mapcat(
+      rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::size_t>(0, most + 1)),
+      [any](std::size_t count) { return rc::gen::container<std::vector<Value>>(count, any); });
+}
+
+rc::Gen<World> any_world(std::size_t most_walks) {
+  return rc::gen::build<World>(
+      rc::gen::set(&World::blocked, up_to(5, any_cell(kWidth, kHeight))),
+      rc::gen::set(&World::walks, up_to(most_walks, any_walk(kWidth, kHeight))),
+      rc::gen::set(&World::start, any_cell(kWidth, kHeight)),
+      rc::gen::set(&World::goal, any_cell(kWidth, kHeight)), rc::gen::set(&World::radius, any_slim_radius()),
+      rc::gen::set(&World::speed, any_speed()), rc::gen::set(&World::connectedness, any_of({2, 2, 3, 4, 5})));
+}
+
+SippOptions plain_sipp(const World& world) {
+  SippOptions options;
+  options.any_angle = false;
+  options.connectedness = world.connectedness;
+  return options;
+}
+
+SippOptions any_angle_sipp(const World& world) {
+  SippOptions options;
+  options.connectedness = world.connectedness;
+  return options;
+}
+
+struct Outcome {
+  std::optional<Trajectory> trajectory;
+  PlanFailure failure = PlanFailure::kNoPath;  ///< where there is no trajectory
+  SearchStatistics statistics;
+};
+
+Outcome search(const Instance& instance, const SippOptions& options,
+               std::uint64_t max_expansions = UINT64_MAX) {
+  ReservationTable reservations(instance.map, instance.agents[0].radius_cells);
+  for (const DynamicObstacle& obstacle : instance.obstacles) {
+    reservations.add(obstacle.trajectory, obstacle.radius_cells);
+  }
+  SippSearch sipp(instance, options);
+  SearchLimits limits;
+  limits.max_expansions = max_expansions;
+  Outcome outcome;
+  const auto planned = sipp.plan(0, reservations, limits, outcome.statistics);
+  if (planned) {
+    outcome.trajectory = *planned;
+  } else {
+    outcome.failure = planned.error();
+  }
+  return outcome;
+}
+
+std::vector<MovingDisk> disks_of(const Instance& instance) {
+  std::vector<MovingDisk> disks;
+  for (const DynamicObstacle& obstacle : instance.obstacles) {
+    for (const MovingDisk& disk : disks_of(obstacle.trajectory, obstacle.radius_cells)) disks.push_back(disk);
+  }
+  return disks;
+}
+
+/// Whether something moves near the robot's way: else a case says little.
+bool has_to_give_way(const Instance& instance, const Trajectory& trajectory, const SippOptions& options) {
+  Instance alone = instance;
+  alone.obstacles.clear();
+  const Outcome free = search(alone, options);
+  return free.trajectory && trajectory.arrival_s() > free.trajectory->arrival_s() + kArrivalS;
+}
+
+void arrives_as_early_as_exhaustive_search(const World& world) {
+  const Instance instance = world.instance();
+  const Outcome outcome = search(instance, plain_sipp(world));
+  const auto expected_s = earliest_arrival_s(instance.map, disks_of(instance), world.robot());
+  RC_ASSERT(outcome.trajectory.has_value() == expected_s.has_value());
+  RC_CLASSIFY(!expected_s, "no way");
+  if (!expected_s) return;
+  RC_LOG() << outcome.trajectory->arrival_s() << " s, expected " << *expected_s << " s" << std::endl;
+  RC_ASSERT(std::abs(outcome.trajectory->arrival_s() - *expected_s) <= kArrivalS);
+  RC_CLASSIFY(has_to_give_way(instance, *outcome.trajectory, plain_sipp(world)), "has to give way");
+}
+
+void keeps_clear(const Instance& instance, const World& world, const Trajectory& trajectory) {
+  RC_ASSERT(trajectory.start == world.start);
+  RC_ASSERT(trajectory.end() == world.goal);
+  std::vector<Leg> legs;
+  double now_s = 0;
+  Cell here = world.start;
+  for (const TimedMotion& motion : trajectory.motions) {
+    RC_ASSERT(motion.begin_s == now_s);
+    RC_ASSERT(motion.from == here);
+    RC_ASSERT(motion.end_s > motion.begin_s);
+    if (!motion.is_wait()) {
+      const double duration_s = distance(motion.from, motion.to) / world.speed;
+      RC_ASSERT(std::abs(motion.end_s - motion.begin_s - duration_s) <= kRoundingS);
+    }
+    RC_ASSERT(exactly_clear(instance.map, world.radius, motion.from, motion.to));
+    legs.push_back({centre(motion.from), centre(motion.to), motion.begin_s, motion.end_s});
+    now_s = motion.end_s;
+    here = motion.to;
+  }
+  legs.push_back({centre(here), centre(here), now_s, kForever});
+  for (const MovingDisk& disk : disks_of(instance)) {
+    for (const Leg& leg : legs) {
+      const double apart = closest_approach(leg, leg_of(disk));
+      RC_ASSERT(apart >= world.radius.value() + disk.radius - kValidatorToleranceCells);
+    }
+  }
+}
+
+/// Moves between 4-neighbours over free cells, by the radius's own rules.
+std::optional<double> alone_arrival_s(const World& world, int connectedness) {
+  LoneRobot robot = world.robot();
+  robot.connectedness = connectedness;
+  return earliest_arrival_s(world.instance().map, {}, robot);
+}
+
+void is_straight_or_stepwise_alone(World world) {
+  world.walks.clear();
+  const Instance instance = world.instance();
+  const auto stepwise_s = alone_arrival_s(world, world.connectedness);
+  for (const bool any_angle : {false, true}) {
+    const Outcome outcome = search(instance, any_angle ? any_angle_sipp(world) : plain_sipp(world));
+    RC_ASSERT(outcome.trajectory.has_value() == stepwise_s.has_value());
+    if (!stepwise_s) continue;
+    const double arrival_s = outcome.trajectory->arrival_s();
+    const double straight_s = distance(world.start, world.goal) / world.speed;
+    RC_ASSERT(arrival_s >= straight_s - kRoundingS);
+    RC_ASSERT(arrival_s <= *stepwise_s + kRoundingS);
+    if (!any_angle) RC_ASSERT(std::abs(arrival_s - *stepwise_s) <= kRoundingS);
+    const bool visible = exactly_clear(instance.map, world.radius, world.start, world.goal);
+    if (any_angle && visible) RC_ASSERT(arrival_s <= straight_s + kRoundingS);
+  }
+  RC_CLASSIFY(!stepwise_s, "no way");
+}
+
+void respects_limit(const World& world, const SippOptions& options) {
+  const Instance instance = world.instance();
+  const Outcome whole = search(instance, options);
+  const std::uint64_t needed = whole.statistics.expansions;
+  for (const std::uint64_t limit :
+       {std::uint64_t{0}, std::uint64_t{1}, needed / 2, needed - (needed > 0 ? 1 : 0), needed, needed + 1}) {
+    const Outcome cut = search(instance, options, limit);
+    RC_ASSERT(cut.statistics.expansions == std::min(limit, needed));
+    RC_ASSERT(cut.trajectory == (limit < needed ? std::nullopt : whole.trajectory));
+    if (limit < needed) RC_ASSERT(cut.failure == PlanFailure::kExpansionLimit);
+  }
+  RC_CLASSIFY(needed > 3, "more than three expansions");
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= rc::check("SIPP arrives exactly as early as an exhaustive search",
+                      [] { arrives_as_early_as_exhaustive_search(*any_world(3)); });
+
+  passed &= rc::check("SIPP and AA-SIPP keep clear of everything that moves and stands", [] {
+    constexpr int kWorlds = 5;
+    int found = 0;
+    for (int i = 0; i < kWorlds; ++i) {
+      const World world = *any_world(5);
+      const Instance instance = world.instance();
+      for (const SippOptions& options : {plain_sipp(world), any_angle_sipp(world)}) {
+        const Outcome outcome = search(instance, options);
+        if (!outcome.trajectory) continue;
+        ++found;
+        keeps_clear(instance, world, *outcome.trajectory);
+      }
+    }
+    RC_CLASSIFY(found >= kWorlds, "many trajectories");
+  });
+
+  passed &= rc::check("alone, SIPP goes the shortest stepwise way and AA-SIPP straight where it can", [] {
+    constexpr int kWorlds = 5;
+    for (int i = 0; i < kWorlds; ++i) is_straight_or_stepwise_alone(*any_world(0));
+  });
+
+  passed &= rc::check("lazy and eager evaluation arrive together (SIPP)", [] {
+    const World world = *any_world(5);
+    const Instance instance = world.instance();
+    SippOptions eager = plain_sipp(world);
+    eager.lazy_evaluation = false;
+    const Outcome lazily = search(instance, plain_sipp(world));
+    const Outcome eagerly = search(instance, eager);
+    RC_ASSERT(lazily.trajectory.has_value() == eagerly.trajectory.has_value());
+    if (!lazily.trajectory) return;
+    RC_ASSERT(std::abs(lazily.trajectory->arrival_s() - eagerly.trajectory->arrival_s()) <= kArrivalS);
+    RC_CLASSIFY(has_to_give_way(instance, *lazily.trajectory, plain_sipp(world)), "has to give way");
+  });
+
+  passed &= rc::check("indexed and plain reservations give the same trajectory", [] {
+    const World world = *any_world(5);
+    const Instance instance = world.instance();
+    for (SippOptions options : {plain_sipp(world), any_angle_sipp(world)}) {
+      const Outcome indexed = search(instance, options);
+      options.indexed_reservations = false;
+      const Outcome plain = search(instance, options);
+      RC_ASSERT(indexed.trajectory == plain.trajectory);
+      RC_ASSERT(indexed.statistics.expansions == plain.statistics.expansions);
+      RC_ASSERT(indexed.statistics.generations == plain.statistics.generations);
+    }
+  });
+
+  passed &= rc::check("max_expansions: no more than so many, and the failure says so", [] {
+    const World world = *any_world(4);
+    respects_limit(world, plain_sipp(world));
+    respects_limit(world, any_angle_sipp(world));
+  });
+
+  return passed ? 0 : 1;
+}
