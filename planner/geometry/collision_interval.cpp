@@ -136,4 +136,12 @@ OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, dou
   return span.interval();
 }
 
+bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {
+  const Stretch inside = within_reach(place, way, reach);
+  if (inside.empty) return false;
+  const Stretch excused = within_reach(pardoned, way, reach);
+  if (excused.empty) return true;
+  return inside.begin < excused.begin - kTouchDepthCells || inside.end > excused.end + kTouchDepthCells;
+}
+
 }  // namespace sipplab

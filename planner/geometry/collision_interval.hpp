@@ -37,6 +37,10 @@ OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double r
 /// REQUIRES: move.way.length > 0.
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach);
 
+/// Whether a way comes within reach of `place` anywhere outside the disk of radius `reach`
+/// around `pardoned`; a way of no length is a point.
+bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);
+
 /// Whether departing at `departure_s` overlaps `obstacle` by kTouchDepthCells or more:
 /// one comparison of squared distances, without roots or divisions. False implies that
 /// the departure is safe up to touching; true leaves the decision to unsafe_departures.

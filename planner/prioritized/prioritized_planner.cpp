@@ -38,15 +38,19 @@ class StartGuard {
     for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) disks_.push_back(protect(agent));
   }
 
-  /// The robot is about to be planned: its own start is no obstacle to it, nor, when
-  /// starts are protected for ever, are those that its own goal overlaps.
+  /// The robot is about to be planned: its own start is no obstacle to it. Starts that are
+  /// protected for ever let it in where its own goal overlaps them, while it is within the
+  /// disk of its goal; else a goal on the start of another robot could never be reached.
   void begin(AgentIndex agent) {
     if (ssi_s_ == 0) return;
     lift(agent);
     if (ssi_s_ < kInfiniteSsi) return;
     for (AgentIndex other = 0; other < disks_.size(); ++other) {
       if (disks_[other] && overlaps_goal(agent, other)) {
+        const Agent& owner = instance_.agents[other];
         lift(other);
+        reservations_.add_keepout(centre(owner.start), owner.radius_cells,
+                                  centre(instance_.agents[agent].goal));
         lifted_for_goal_.push_back(other);
       }
     }
@@ -54,6 +58,7 @@ class StartGuard {
 
   /// The robot has been planned.
   void end() {
+    reservations_.clear_keepouts();
     for (const AgentIndex other : lifted_for_goal_) disks_[other] = protect(other);
     lifted_for_goal_.clear();
   }

@@ -45,6 +45,7 @@ void ReservationTable::clear() {
   }
   used_cells_.clear();
   disks_.clear();
+  keepouts_.clear();
 }
 
 template <class Visitor>
@@ -126,7 +127,19 @@ void ReservationTable::add(const Trajectory& trajectory, double radius_cells) {
   add(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius_cells));
 }
 
+void ReservationTable::add_keepout(Vec2 place, double radius_cells, Vec2 pardoned) {
+  keepouts_.push_back({place, radius_cells, pardoned});
+}
+
+bool ReservationTable::is_kept_out(const Displacement& way, double radius_cells) const {
+  return std::any_of(keepouts_.begin(), keepouts_.end(), [&](const Keepout& keepout) {
+    return intrudes(way, keepout.place, keepout.pardoned, radius_cells + keepout.radius);
+  });
+}
+
 const std::vector<SafeInterval>& ReservationTable::safe_intervals(Cell cell, double radius_cells) {
+  static const std::vector<SafeInterval> kNever;
+  if (is_kept_out(Displacement(centre(cell), centre(cell)), radius_cells)) return kNever;
   Timeline& timeline = timelines_[map_.index(cell)];
   if (timeline.safe_radius != radius_cells) {
     timeline.safe.reset();
@@ -174,6 +187,7 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
                                             double until_s) {
+  if (is_kept_out(move.way, radius_cells)) return kForever;
   double departure_s = from_s;
   // Every visit must be seen clear at the same departure: go round until all were, in a
   // row. Each jump ends where an unsafe interval ends, so no safe departure is missed.
@@ -204,6 +218,7 @@ double ReservationTable::earliest_departure(const Move& move, double radius_cell
 
 double ReservationTable::earliest_departure_plain(const Move& move, double radius_cells, double from_s,
                                                   double until_s) const {
+  if (is_kept_out(move.way, radius_cells)) return kForever;
   double departure_s = from_s;
   bool moved = true;
   while (moved && departure_s <= until_s && departure_s < kForever) {

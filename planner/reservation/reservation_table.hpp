@@ -38,6 +38,12 @@ class ReservationTable {
   /// Adds a whole trajectory and the rest at its end for ever.
   void add(const Trajectory& trajectory, double radius_cells);
 
+  /// Keeps robots away from a disk for ever, except while they are in the disk of the same
+  /// reach around `pardoned`. For the robot that is planned next only: forgotten by
+  /// clear_keepouts(). O(1); each makes every query a little slower.
+  void add_keepout(Vec2 place, double radius_cells, Vec2 pardoned);
+  void clear_keepouts() { keepouts_.clear(); }
+
   /// Maximal closed spans in which a disk of this radius may stay at the cell, in
   /// order. Valid until a disk is added or removed. O(1) unless the radius is another than
   /// at the last call for this cell or a disk near it was removed since.
@@ -72,6 +78,13 @@ class ReservationTable {
     IntervalSet safe;
     double safe_radius = -1;
   };
+  struct Keepout {
+    Vec2 place;
+    double radius;
+    Vec2 pardoned;
+  };
+  bool is_kept_out(const Displacement& way, double radius_cells) const;
+
   template <class Visitor>
   void for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const;
   /// Where departing at `departure_s` overlaps a disk met during the visit: the end of
@@ -84,6 +97,7 @@ class ReservationTable {
   double max_radius_;
   std::vector<MovingDisk> disks_;
   std::vector<Timeline> timelines_;
+  std::vector<Keepout> keepouts_;
   std::vector<std::size_t> used_cells_;  ///< timelines that are not empty
   std::vector<CellVisit> visits_;        ///< scratch
   std::uint64_t disks_examined_ = 0;
