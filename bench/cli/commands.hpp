@@ -26,5 +26,6 @@ Command add_bench_command(CLI::App& program, const Invocation& invocation);
 Command add_runs_command(CLI::App& program);
 Command add_show_command(CLI::App& program);
 Command add_sql_command(CLI::App& program);
+Command add_property_command(CLI::App& program, const Invocation& invocation);
 
 }  // namespace sipplab::cli

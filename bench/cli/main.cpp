@@ -51,7 +51,7 @@ int parse_and_run(int argc, char** argv) {
       add_plan_command(program),     add_validate_command(program),
       add_generate_command(program), add_bench_command(program, invocation_of(argc, argv)),
       add_runs_command(program),     add_show_command(program),
-      add_sql_command(program),
+      add_sql_command(program),      add_property_command(program, invocation_of(argc, argv)),
   };
   try {
     program.parse(argc, argv);

@@ -14,6 +14,7 @@
 #include "planner/io/solution_io.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
+#include "planner/validator/certify.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab::cli {
@@ -24,7 +25,14 @@ struct ValidateArguments {
   std::string solution;
   std::optional<std::string> ssi;
   std::optional<std::string> svg;
+  bool certify = false;
   bool json = false;
+};
+
+/// The validator's opinion and, where it was asked for, what is proven.
+struct Verdict {
+  ValidationReport report;
+  std::optional<Certification> certification;
 };
 
 nlohmann::ordered_json number_or_null(double value) {
@@ -32,7 +40,8 @@ nlohmann::ordered_json number_or_null(double value) {
 }
 
 std::string to_json(const Instance& instance, const SolutionDocument& document,
-                    const ValidationOptions& options, const ValidationReport& report) {
+                    const ValidationOptions& options, const Verdict& verdict) {
+  const ValidationReport& report = verdict.report;
   nlohmann::ordered_json violations = nlohmann::ordered_json::array();
   for (const Violation& violation : report.violations) {
     nlohmann::ordered_json entry;
@@ -52,6 +61,12 @@ std::string to_json(const Instance& instance, const SolutionDocument& document,
   json["flowtime"] = number_or_null(flowtime_s(document.solution));
   json["min_clearance"] = number_or_null(report.min_clearance_cells);
   json["ssi_checked"] = options.order.empty() ? "none" : format_ssi(options.ssi_s);
+  if (const auto& certification = verdict.certification) {
+    json["certified"] = {{"pairs", certification->pairs()},
+                         {"safe", certification->safe},
+                         {"collision", certification->collisions},
+                         {"undecided", certification->undecided}};
+  }
   json["violations"] = std::move(violations);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -74,6 +89,17 @@ std::string summary(const SolutionDocument& document, const ValidationOptions& o
   return text + "\n";
 }
 
+std::string summary(const Certification& certification) {
+  return fmt::format("certified: {} pairs safe, {} in collision, {} undecided\n", certification.safe,
+                     certification.collisions, certification.undecided);
+}
+
+int exit_code(const Verdict& verdict) {
+  const std::optional<Certification>& certification = verdict.certification;
+  if (!verdict.report.valid() || (certification && certification->collisions > 0)) return kNegativeVerdict;
+  return certification && certification->undecided > 0 ? kInconclusive : kSuccess;
+}
+
 int run_validate(const ValidateArguments& arguments) {
   const Expected<LoadedInstance, std::string> loaded = arguments.instance.load();
   if (!loaded) return fail(kBadUsage, loaded.error());
@@ -94,16 +120,23 @@ int run_validate(const ValidateArguments& arguments) {
                 arguments.solution + ": no priority order in it, expected one to check --ssi against");
   }
 
-  const ValidationReport report = validate(loaded->instance, document.solution, options);
+  Verdict verdict;
+  verdict.report = validate(loaded->instance, document.solution, options);
+  if (arguments.certify) verdict.certification = certify(loaded->instance, document.solution);
+  const ValidationReport& report = verdict.report;
   if (arguments.svg) {
     SvgOptions picture;
     picture.subtitle = report.valid() ? "valid" : "invalid: " + report.violations.front().message;
     const std::string text = draw_svg(loaded->instance, document.solution, report, picture);
     if (const auto error = write_file(*arguments.svg, text)) return fail(kBadUsage, error->message());
   }
-  print(arguments.json ? to_json(loaded->instance, document, options, report)
-                       : summary(document, options, report));
-  return report.valid() ? kSuccess : kNegativeVerdict;
+  if (arguments.json) {
+    print(to_json(loaded->instance, document, options, verdict));
+  } else {
+    print(summary(document, options, report) +
+          (verdict.certification ? summary(*verdict.certification) : std::string()));
+  }
+  return exit_code(verdict);
 }
 
 }  // namespace
@@ -120,6 +153,8 @@ Command add_validate_command(CLI::App& program) {
       ->type_name("K");
   command->add_option("--svg", arguments->svg, "draw the solution and its violations there")
       ->type_name("FILE");
+  command->add_flag("--certify", arguments->certify,
+                    "prove for each pair that it is safe or collides; exit code 3 where neither is proven");
   command->add_flag("--json", arguments->json, "print one JSON document");
   return {command, [arguments] { return run_validate(*arguments); }};
 }

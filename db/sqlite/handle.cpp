@@ -78,6 +78,7 @@ Error describe(const Handle& handle, int code, std::string_view doing) {
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
     case SQLITE_READONLY:
+    case SQLITE_IOERR:
       return {ErrorKind::kCannotOpen,
               fmt::format("{}: {} while {}, expected a file and a folder with permission to write", file,
                           one_line(reason), doing)};

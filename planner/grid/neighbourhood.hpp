@@ -11,8 +11,8 @@ namespace sipplab {
 inline constexpr int kMinConnectedness = 2;
 inline constexpr int kMaxConnectedness = 5;
 
-/// Displacements to the 2^k neighbours, shorter ones first; the neighbours of a smaller
-/// k come first. REQUIRES: kMinConnectedness <= k <= kMaxConnectedness.
+/// Displacements to the 2^k neighbours; those of a smaller k, which are shorter, come
+/// first. REQUIRES: kMinConnectedness <= k <= kMaxConnectedness.
 std::span<const Cell> neighbourhood(int k);
 
 /// Length of the shortest way over the 2^k neighbourhood on an empty grid, in cells:

@@ -8,6 +8,7 @@
 #include "property_tests/support/case_codec.hpp"
 #include "property_tests/support/case_shrinker.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
@@ -26,13 +27,13 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("every case keeps the rules of an instance", [] {
+  passed &= property("every case keeps the rules of an instance", [] {
     const PlanCase plan_case = *any_case();
     classify_case(plan_case);
     RC_ASSERT(!find_error(plan_case.instance));
   });
 
-  passed &= rc::check("text keeps the whole case", [] {
+  passed &= property("text keeps the whole case", [] {
     const PlanCase plan_case = *any_case();
     const auto decoded = decode_case(encode_case(plan_case));
     RC_ASSERT(decoded.has_value());
@@ -41,7 +42,7 @@ int main() {
     RC_ASSERT(encode_case(*decoded) == encode_case(plan_case));
   });
 
-  passed &= rc::check("any text is decoded or refused", [] {
+  passed &= property("any text is decoded or refused", [] {
     std::string text = encode_case(*any_case());
     const int edits = *rc::gen::inRange(0, 6);
     for (int i = 0; i < edits; ++i) {
@@ -53,7 +54,7 @@ int main() {
     RC_CLASSIFY(decoded.has_value(), "decoded");
   });
 
-  passed &= rc::check("simpler cases keep the rules, and simplifying comes to an end", [] {
+  passed &= property("simpler cases keep the rules, and simplifying comes to an end", [] {
     PlanCase plan_case = *any_case();
     // Always the last offer: the least step, so the longest way.
     int steps = 0;

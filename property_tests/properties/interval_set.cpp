@@ -1,5 +1,6 @@
 // Safe time against a row of points that are each safe or not.
 #include "planner/geometry/interval_set.hpp"
+#include "property_tests/support/property.hpp"
 
 #include <rapidcheck.h>
 
@@ -102,12 +103,12 @@ int main() {
   using Spans = std::vector<OpenInterval>;
   bool passed = true;
 
-  passed &= rc::check("remove_open (1)(2)(3): agrees with removal point by point", [](const Spans& spans) {
+  passed &= property("remove_open (1)(2)(3): agrees with removal point by point", [](const Spans& spans) {
     IntervalSet set;
     agrees_with_points(spans, set);
   });
 
-  passed &= rc::check("remove_open: the order of removals does not matter", [](const Spans& spans) {
+  passed &= property("remove_open: the order of removals does not matter", [](const Spans& spans) {
     IntervalSet forwards;
     IntervalSet backwards;
     for (const OpenInterval& span : spans) forwards.remove_open(ordered(span));
@@ -116,7 +117,7 @@ int main() {
   });
 
   passed &=
-      rc::check("reset: nothing that was removed is remembered", [](const Spans& before, const Spans& after) {
+      property("reset: nothing that was removed is remembered", [](const Spans& before, const Spans& after) {
         IntervalSet set;
         for (const OpenInterval& span : before) set.remove_open(ordered(span));
         set.reset();

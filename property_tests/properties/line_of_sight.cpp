@@ -10,6 +10,7 @@
 
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exact_line_of_sight.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 
@@ -134,10 +135,10 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("is_legal and is_clear (1)(2)(3): agree with whole numbers, cell by cell",
-                      [] { agrees_on_all_pairs(*any_world()); });
+  passed &= property("is_legal and is_clear (1)(2)(3): agree with whole numbers, cell by cell",
+                     [] { agrees_on_all_pairs(*any_world()); });
 
-  passed &= rc::check("swept_run: the cells that whole numbers say, on short ways", [] {
+  passed &= property("swept_run: the cells that whole numbers say, on short ways", [] {
     constexpr int kWays = 50;
     for (int i = 0; i < kWays; ++i) {
       const Fraction radius = *any_fraction();
@@ -145,7 +146,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("swept_run: the cells that whole numbers say, on long ways", [] {
+  passed &= property("swept_run: the cells that whole numbers say, on long ways", [] {
     const Fraction radius = *any_fraction();
     agrees_on_all_rows(*any_displacement(150), radius);
   });

@@ -14,6 +14,7 @@
 #include "planner/grid/grid_map.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
@@ -72,7 +73,7 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("neighbourhood_distance: is what Dijkstra's algorithm finds on an empty grid", [] {
+  passed &= property("neighbourhood_distance: is what Dijkstra's algorithm finds on an empty grid", [] {
     static const GridMap kMap(2 * kHalfSide + 1, 2 * kHalfSide + 1);
     static const Cell kMiddle{kHalfSide, kHalfSide};
     static const std::vector<std::vector<double>> kWays = shortest_ways_of_all(kMap, kMiddle);
@@ -85,7 +86,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("neighbourhood_distance: one step never saves more than its length", [] {
+  passed &= property("neighbourhood_distance: one step never saves more than its length", [] {
     const Cell from = any_far_cell();
     const Cell to = any_far_cell();
     const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
@@ -96,7 +97,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("neighbourhood_distance: more neighbours shorten ways, down to the straight line", [] {
+  passed &= property("neighbourhood_distance: more neighbours shorten ways, down to the straight line", [] {
     const Cell from = any_far_cell();
     const Cell to = any_far_cell();
     double shorter = distance(from, to);

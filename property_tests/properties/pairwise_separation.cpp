@@ -10,6 +10,7 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
 
 namespace sipplab {
@@ -77,19 +78,20 @@ int main() {
 
   for (int i = 0; i < kCaseFamilies; ++i) {
     const auto family = static_cast<CaseFamily>(i);
-    passed &= rc::check("every solution passes the validator: " + std::string(name(family)),
-                        [family] { plan_is_valid(*any_case_of(family)); });
+    passed &= property("every solution passes the validator: " + std::string(name(family)),
+                       [family] { plan_is_valid(*any_case_of(family)); });
   }
 
-  passed &= rc::check("no two bodies of a solution overlap at any of many times",
-                      [] { plan_stays_apart_at_many_times(*any_case()); });
+  passed &= property("no two bodies of a solution overlap at any of many times",
+                     [] { plan_stays_apart_at_many_times(*any_case()); });
 
-  passed &= rc::check("an instance with an unreachable goal is not solved", [] {
+  passed &= property("an instance with an unreachable goal is not solved", [] {
     PlanCase plan_case = *any_case_of(CaseFamily::kScattered);
     Instance& instance = plan_case.instance;
     RC_PRE(!instance.agents.empty());
     wall_in(instance.map, instance.agents.back().goal);
     RC_PRE(!find_error(instance) && find_unreachable_goal(instance));
+    note_case(plan_case);
     RC_ASSERT(plan(instance, plan_case.options).status != PlanStatus::kSolved);
   });
 

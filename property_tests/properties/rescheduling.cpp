@@ -9,6 +9,7 @@
 
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
@@ -24,6 +25,7 @@ bool same(const PlanResult& a, const PlanResult& b) {
 
 PlanResult plan_case_of(const PlanCase& plan_case) {
   classify_case(plan_case);
+  note_case(plan_case);
   PlanResult result = plan(plan_case.instance, plan_case.options);
   RC_CLASSIFY(result.status == PlanStatus::kSolved, "solved");
   RC_CLASSIFY(result.tries() > 1, "several tries");
@@ -62,12 +64,12 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("the same case gives the same result, to the last bit and counter", [] {
+  passed &= property("the same case gives the same result, to the last bit and counter", [] {
     const PlanCase plan_case = *any_case();
     RC_ASSERT(same(plan_case_of(plan_case), plan(plan_case.instance, plan_case.options)));
   });
 
-  passed &= rc::check("every try is an order of all agents; only the last one can succeed", [] {
+  passed &= property("every try is an order of all agents; only the last one can succeed", [] {
     const PlanCase plan_case = *any_case();
     const PlanResult result = plan_case_of(plan_case);
     RC_ASSERT(result.tries() >= 1u);
@@ -78,7 +80,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("the final order without re-scheduling gives the same trajectories", [] {
+  passed &= property("the final order without re-scheduling gives the same trajectories", [] {
     const PlanCase plan_case = *any_case();
     const PlanResult result = plan_case_of(plan_case);
     RC_PRE(result.status == PlanStatus::kSolved);
@@ -97,10 +99,10 @@ int main() {
     }
   });
 
-  passed &= rc::check("none: one try",
-                      [] { RC_ASSERT(plan_case_of(any_case_with(Rescheduling::kNone)).tries() == 1u); });
+  passed &= property("none: one try",
+                     [] { RC_ASSERT(plan_case_of(any_case_with(Rescheduling::kNone)).tries() == 1u); });
 
-  passed &= rc::check("deterministic: the failed robot goes to the front, until an order repeats", [] {
+  passed &= property("deterministic: the failed robot goes to the front, until an order repeats", [] {
     const PlanCase plan_case = any_case_with(Rescheduling::kDeterministic);
     const PlanResult result = plan_case_of(plan_case);
     for (std::size_t i = 1; i < result.tries(); ++i) {
@@ -115,7 +117,7 @@ int main() {
                           [&](const Try& pass) { return pass.order == next; }));
   });
 
-  passed &= rc::check("random: no order is tried twice; it gives up when all were", [] {
+  passed &= property("random: no order is tried twice; it gives up when all were", [] {
     const PlanCase plan_case = any_case_with(Rescheduling::kRandom);
     const PlanResult result = plan_case_of(plan_case);
     RC_ASSERT(no_order_twice(result));
@@ -125,17 +127,18 @@ int main() {
     RC_ASSERT(result.tries() == orders);
   });
 
-  passed &= rc::check("re-scheduling solves in one try whatever is solved without", [] {
+  passed &= property("re-scheduling solves in one try whatever is solved without", [] {
     PlanCase plan_case = any_case_with(Rescheduling::kNone);
     const PlanResult off = plan_case_of(plan_case);
     RC_PRE(off.status == PlanStatus::kSolved);
     for (const Rescheduling rescheduling : {Rescheduling::kDeterministic, Rescheduling::kRandom}) {
       plan_case.options.rescheduling = rescheduling;
+      note_case(plan_case);
       RC_ASSERT(same(plan(plan_case.instance, plan_case.options), off));
     }
   });
 
-  passed &= rc::check("fifo: the last robot's goal is nothing to the others", [] {
+  passed &= property("fifo: the last robot's goal is nothing to the others", [] {
     PlanCase plan_case = any_case_with(Rescheduling::kNone);
     RC_PRE(!plan_case.instance.agents.empty());
     plan_case.options.order = InitialOrder::kFifo;
@@ -144,6 +147,7 @@ int main() {
     Agent& last = plan_case.instance.agents.back();
     last.goal = last.start;
     RC_PRE(!find_error(plan_case.instance));
+    note_case(plan_case);
     const PlanResult after = plan(plan_case.instance, plan_case.options);
     RC_PRE(after.status == PlanStatus::kSolved);
     for (AgentIndex i = 0; i + 1 < plan_case.instance.agents.size(); ++i) {
@@ -151,21 +155,23 @@ int main() {
     }
   });
 
-  passed &= rc::check("a budget of expansions is kept, and ends as a limit", [] {
+  passed &= property("a budget of expansions is kept, and ends as a limit", [] {
     PlanCase plan_case = *any_case();
     const PlanResult free = plan_case_of(plan_case);
     RC_PRE(free.statistics.expansions > 0u);
     plan_case.options.max_expansions = *rc::gen::inRange<std::uint64_t>(0, free.statistics.expansions);
+    note_case(plan_case);
     const PlanResult limited = plan(plan_case.instance, plan_case.options);
     RC_ASSERT(limited.status == PlanStatus::kLimit);
     RC_ASSERT(limited.statistics.expansions <= plan_case.options.max_expansions);
   });
 
-  passed &= rc::check("a budget of restarts is kept", [] {
+  passed &= property("a budget of restarts is kept", [] {
     PlanCase plan_case = *any_case();
     const PlanResult free = plan_case_of(plan_case);
     RC_PRE(free.tries() > 1u);
     plan_case.options.max_restarts = *rc::gen::inRange<std::uint64_t>(0, free.tries() - 1);
+    note_case(plan_case);
     const PlanResult limited = plan(plan_case.instance, plan_case.options);
     RC_ASSERT(limited.status == PlanStatus::kLimit);
     RC_ASSERT(limited.tries() == plan_case.options.max_restarts + 1);

@@ -5,22 +5,24 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include "planner/geometry/collision_interval.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
 
 constexpr std::int32_t kWidth = 7;
 constexpr std::int32_t kHeight = 6;
-/// Cells. No robot that asks is larger.
-constexpr double kLargestRadius = 1.5;
+constexpr int kTrafficsPerCase = 4;
 
 /// A resting disk that may be removed again, as protected starts are.
 struct Guard {
@@ -34,6 +36,7 @@ struct Guard {
 };
 
 struct Traffic {
+  double largest_radius = 1.5;  ///< of robots that ask, in cells
   std::vector<Cell> blocked;
   std::vector<Guard> guards;
   std::vector<Walk> walks;
@@ -52,6 +55,7 @@ struct Query {
 };
 
 std::ostream& operator<<(std::ostream& out, const Traffic& traffic) {
+  out << "robots up to radius " << traffic.largest_radius << "\n";
   for (const Cell cell : traffic.blocked) out << "blocked (" << cell.x << ", " << cell.y << ")\n";
   for (const Guard& guard : traffic.guards) {
     out << (guard.removed ? "removed " : "") << "guard (" << guard.place.x << ", " << guard.place.y
@@ -67,7 +71,7 @@ std::ostream& operator<<(std::ostream& out, const Query& query) {
              << query.until_s << "]";
 }
 
-rc::Gen<double> any_asking_radius() { return any_of({0.5, 0.5, 0.25, 1.0, kLargestRadius, 0.3}); }
+rc::Gen<double> any_asking_radius() { return any_of({0.5, 0.5, 0.25, 1.0, 1.5, 0.3}); }
 
 template <class Value>
 rc::Gen<std::vector<Value>> up_to(std::size_t most, const rc::Gen<Value>& any) {
@@ -82,7 +86,8 @@ rc::Gen<Traffic> any_traffic() {
       rc::gen::set(&Guard::begin_s, any_of({0.0, 0.0, 1.5})),
       rc::gen::set(&Guard::rest_s, any_of({5.0, 1.0, 2.5, kForever})),
       rc::gen::set(&Guard::radius, any_radius()), rc::gen::set(&Guard::removed, rc::gen::arbitrary<bool>()));
-  return rc::gen::build<Traffic>(rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
+  return rc::gen::build<Traffic>(rc::gen::set(&Traffic::largest_radius, any_of({1.5, 0.5, 0.25})),
+                                 rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
                                  rc::gen::set(&Traffic::guards, up_to(4, any_guard)),
                                  rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))));
 }
@@ -99,7 +104,8 @@ rc::Gen<std::vector<Query>> any_queries() {
 /// A table with everything in it, and what it ought to hold.
 class Filled {
  public:
-  explicit Filled(const Traffic& traffic) : map_(kWidth, kHeight), table_(map_, kLargestRadius) {
+  explicit Filled(const Traffic& traffic)
+      : largest_radius_(traffic.largest_radius), map_(kWidth, kHeight), table_(map_, traffic.largest_radius) {
     for (const Cell cell : traffic.blocked) map_.set_blocked(cell, true);
     fill(traffic);
   }
@@ -112,9 +118,9 @@ class Filled {
       ids.push_back(table_.add(guard.disk()));
       disks_.push_back(guard.disk());
     }
-    ask_everywhere(0.5);
+    ask_everywhere(largest_radius_);
     for (std::size_t i = 0; i < traffic.walks.size(); ++i) {
-      if (i == traffic.walks.size() / 2) ask_everywhere(i % 2 == 0 ? 0.5 : 1.0);
+      if (i == traffic.walks.size() / 2) ask_everywhere(i % 2 == 0 ? largest_radius_ : largest_radius_ / 2);
       add(traffic.walks[i]);
     }
     std::vector<MovingDisk> left;
@@ -126,7 +132,7 @@ class Filled {
       }
     }
     disks_ = left;
-    ask_everywhere(0.5);
+    ask_everywhere(largest_radius_);
     // Once more after a removal.
     if (!traffic.walks.empty()) add(traffic.walks.front());
   }
@@ -136,6 +142,7 @@ class Filled {
     disks_.clear();
   }
 
+  double largest_radius() const { return largest_radius_; }
   const GridMap& map() const { return map_; }
   ReservationTable& table() { return table_; }
   const std::vector<MovingDisk>& disks() const { return disks_; }
@@ -151,6 +158,7 @@ class Filled {
     for (std::size_t i = 0; i < map_.cell_count(); ++i) table_.safe_intervals(map_.cell(i), radius);
   }
 
+  double largest_radius_;
   GridMap map_;
   ReservationTable table_;
   std::vector<MovingDisk> disks_;
@@ -158,7 +166,8 @@ class Filled {
 
 void intervals_are_cut_by_every_disk(Filled& filled) {
   std::size_t points = 0;
-  for (const double radius : {0.5, kLargestRadius, 0.25, 0.5}) {
+  const double largest = filled.largest_radius();
+  for (const double radius : {largest, largest / 2, 0.125, largest}) {
     for (std::size_t i = 0; i < filled.map().cell_count(); ++i) {
       const Cell cell = filled.map().cell(i);
       if (filled.map().is_blocked(cell)) continue;
@@ -176,11 +185,13 @@ void intervals_are_cut_by_every_disk(Filled& filled) {
   RC_CLASSIFY(points > 0, "some single points");
 }
 
-/// Queries that a robot could pose: two different cells and nothing blocked between.
-std::vector<Query> posed(const std::vector<Query>& queries, const GridMap& map) {
+/// Queries that a robot could pose: not larger than it said, between two different cells
+/// with nothing blocked between.
+std::vector<Query> posed(const std::vector<Query>& queries, const Filled& filled) {
   std::vector<Query> kept;
-  for (const Query& query : queries) {
-    const LineOfSight line_of_sight(map, query.radius);
+  for (Query query : queries) {
+    query.radius = std::min(query.radius, filled.largest_radius());
+    const LineOfSight line_of_sight(filled.map(), query.radius);
     if (query.from == query.to) continue;
     if (!line_of_sight.is_legal(query.from) || !line_of_sight.is_legal(query.to)) continue;
     if (line_of_sight.is_clear(query.from, query.to)) kept.push_back(query);
@@ -188,19 +199,25 @@ std::vector<Query> posed(const std::vector<Query>& queries, const GridMap& map) 
   return kept;
 }
 
-void agrees_with_plain_twin(Filled& filled, const std::vector<Query>& queries) {
+/// Seconds. Where two disks set the mover free at the same time, each gives that time with
+/// its own slack and rounding, and the twins may look at either first.
+constexpr double kTwinS = 1e-7;
+
+/// How many have to wait.
+int agrees_with_plain_twin(Filled& filled, const std::vector<Query>& queries) {
   int delayed = 0;
-  for (const Query& query : posed(queries, filled.map())) {
+  for (const Query& query : posed(queries, filled)) {
     const Move move = query.move();
     const double indexed_s =
         filled.table().earliest_departure(move, query.radius, query.from_s, query.until_s);
     const double plain_s =
         filled.table().earliest_departure_plain(move, query.radius, query.from_s, query.until_s);
     RC_LOG() << query << std::endl;
-    RC_ASSERT(indexed_s == plain_s || (indexed_s > query.until_s && plain_s > query.until_s));
+    if (indexed_s > query.until_s && plain_s > query.until_s) continue;
+    RC_ASSERT(indexed_s == plain_s || std::abs(indexed_s - plain_s) <= kTwinS);
     delayed += indexed_s > query.from_s;
   }
-  RC_CLASSIFY(delayed > 0, "some have to wait");
+  return delayed;
 }
 
 /// Overlap of a move with all disks. Where the two are there together for no time that
@@ -218,7 +235,8 @@ double deepest_overlap(const std::vector<MovingDisk>& disks, const Query& query,
   return deepest;
 }
 
-void is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
+/// How many departures were found, and how often there was none.
+std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
   /// Seconds: between departures that are tried, and the last of them.
   constexpr double kTryStepS = 1.0 / 16;
   constexpr double kTryUntilS = 25;
@@ -226,7 +244,7 @@ void is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
   constexpr double kToleranceS = 1e-6;
   int found = 0;
   int given_up = 0;
-  for (const Query& query : posed(queries, filled.map())) {
+  for (const Query& query : posed(queries, filled)) {
     const double departure_s =
         filled.table().earliest_departure(query.move(), query.radius, query.from_s, query.until_s);
     RC_LOG() << query << ": " << departure_s << std::endl;
@@ -244,8 +262,7 @@ void is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
       RC_ASSERT(deepest_overlap(filled.disks(), query, tried_s) > -rounding_cells(tried_s, 4));
     }
   }
-  RC_CLASSIFY(found > 0, "some departures");
-  RC_CLASSIFY(given_up > 0, "some without");
+  return {found, given_up};
 }
 
 }  // namespace
@@ -256,32 +273,44 @@ int main() {
   bool passed = true;
 
   passed &=
-      rc::check("safe_intervals: all time less the collision intervals of every disk, after any changes", [] {
+      property("safe_intervals: all time less the collision intervals of every disk, after any changes", [] {
         Filled filled(*any_traffic());
         intervals_are_cut_by_every_disk(filled);
       });
 
-  passed &= rc::check("earliest_departure: the same as its plain twin", [] {
-    Filled filled(*any_traffic());
-    agrees_with_plain_twin(filled, *any_queries());
+  passed &= property("earliest_departure: the same as its plain twin, up to slack", [] {
+    int delayed = 0;
+    for (int i = 0; i < kTrafficsPerCase; ++i) {
+      Filled filled(*any_traffic());
+      delayed += agrees_with_plain_twin(filled, *any_queries());
+    }
+    RC_CLASSIFY(delayed >= 10, "ten or more have to wait");
   });
 
-  passed &= rc::check("earliest_departure: safe by distances, and nothing earlier on the lattice is", [] {
-    Filled filled(*any_traffic());
-    is_the_earliest_safe(filled, *any_queries());
+  passed &= property("earliest_departure: safe by distances, and nothing earlier on the lattice is", [] {
+    int found = 0;
+    int given_up = 0;
+    for (int i = 0; i < kTrafficsPerCase; ++i) {
+      Filled filled(*any_traffic());
+      const std::pair<int, int> counts = is_the_earliest_safe(filled, *any_queries());
+      found += counts.first;
+      given_up += counts.second;
+    }
+    RC_CLASSIFY(found >= 10, "ten departures or more");
+    RC_CLASSIFY(given_up >= 10, "ten times none or more");
   });
 
-  passed &= rc::check("clear: nothing of the time before is remembered", [] {
+  passed &= property("clear: nothing of the time before is remembered", [] {
     Filled filled(*any_traffic());
     filled.clear();
     intervals_are_cut_by_every_disk(filled);
     const auto queries = *any_queries();
-    for (const Query& query : posed(queries, filled.map())) {
+    for (const Query& query : posed(queries, filled)) {
       RC_ASSERT(filled.table().earliest_departure(query.move(), query.radius, query.from_s, query.until_s) ==
                 query.from_s);
     }
     const Traffic traffic = *any_traffic();
-    filled.fill({{}, traffic.guards, traffic.walks});
+    filled.fill(traffic);
     intervals_are_cut_by_every_disk(filled);
     agrees_with_plain_twin(filled, queries);
   });

@@ -8,12 +8,12 @@
 #include <ostream>
 #include <vector>
 
-#include "planner/grid/line_of_sight.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exact_line_of_sight.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 /// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each; another way is
 /// later or earlier by far more.
 constexpr double kArrivalS = 1e-6;
-/// Cells. Rounding of sums of square roots.
+/// Seconds. Rounding of sums of square roots.
 constexpr double kRoundingS = 1e-9;
 
 constexpr std::int32_t kWidth = 5;
@@ -103,6 +103,12 @@ SippOptions any_angle_sipp(const World& world) {
   return options;
 }
 
+void fill(ReservationTable& reservations, const Instance& instance) {
+  for (const DynamicObstacle& obstacle : instance.obstacles) {
+    reservations.add(obstacle.trajectory, obstacle.radius_cells);
+  }
+}
+
 struct Outcome {
   std::optional<Trajectory> trajectory;
   PlanFailure failure = PlanFailure::kNoPath;  ///< where there is no trajectory
@@ -112,9 +118,7 @@ struct Outcome {
 Outcome search(const Instance& instance, const SippOptions& options,
                std::uint64_t max_expansions = UINT64_MAX) {
   ReservationTable reservations(instance.map, instance.agents[0].radius_cells);
-  for (const DynamicObstacle& obstacle : instance.obstacles) {
-    reservations.add(obstacle.trajectory, obstacle.radius_cells);
-  }
+  fill(reservations, instance);
   SippSearch sipp(instance, options);
   SearchLimits limits;
   limits.max_expansions = max_expansions;
@@ -136,7 +140,7 @@ std::vector<MovingDisk> disks_of(const Instance& instance) {
   return disks;
 }
 
-/// Whether something moves near the robot's way: else a case says little.
+/// Whether the robot is later than it would be alone: else a case says little.
 bool has_to_give_way(const Instance& instance, const Trajectory& trajectory, const SippOptions& options) {
   Instance alone = instance;
   alone.obstacles.clear();
@@ -144,16 +148,19 @@ bool has_to_give_way(const Instance& instance, const Trajectory& trajectory, con
   return free.trajectory && trajectory.arrival_s() > free.trajectory->arrival_s() + kArrivalS;
 }
 
-void arrives_as_early_as_exhaustive_search(const World& world) {
+/// What became of a robot among obstacles.
+enum class Meeting { kNoWay, kUnhindered, kGivesWay };
+
+Meeting arrives_as_early_as_exhaustive_search(const World& world) {
   const Instance instance = world.instance();
   const Outcome outcome = search(instance, plain_sipp(world));
   const auto expected_s = earliest_arrival_s(instance.map, disks_of(instance), world.robot());
   RC_ASSERT(outcome.trajectory.has_value() == expected_s.has_value());
-  RC_CLASSIFY(!expected_s, "no way");
-  if (!expected_s) return;
+  if (!expected_s) return Meeting::kNoWay;
   RC_LOG() << outcome.trajectory->arrival_s() << " s, expected " << *expected_s << " s" << std::endl;
   RC_ASSERT(std::abs(outcome.trajectory->arrival_s() - *expected_s) <= kArrivalS);
-  RC_CLASSIFY(has_to_give_way(instance, *outcome.trajectory, plain_sipp(world)), "has to give way");
+  return has_to_give_way(instance, *outcome.trajectory, plain_sipp(world)) ? Meeting::kGivesWay
+                                                                           : Meeting::kUnhindered;
 }
 
 void keeps_clear(const Instance& instance, const World& world, const Trajectory& trajectory) {
@@ -184,7 +191,7 @@ void keeps_clear(const Instance& instance, const World& world, const Trajectory&
   }
 }
 
-/// Moves between 4-neighbours over free cells, by the radius's own rules.
+/// Arrival over the 2^k neighbourhood when nothing moves.
 std::optional<double> alone_arrival_s(const World& world, int connectedness) {
   LoneRobot robot = world.robot();
   robot.connectedness = connectedness;
@@ -207,10 +214,10 @@ void is_straight_or_stepwise_alone(World world) {
     const bool visible = exactly_clear(instance.map, world.radius, world.start, world.goal);
     if (any_angle && visible) RC_ASSERT(arrival_s <= straight_s + kRoundingS);
   }
-  RC_CLASSIFY(!stepwise_s, "no way");
 }
 
-void respects_limit(const World& world, const SippOptions& options) {
+/// How many expansions the search takes without a limit.
+std::uint64_t respects_limit(const World& world, const SippOptions& options) {
   const Instance instance = world.instance();
   const Outcome whole = search(instance, options);
   const std::uint64_t needed = whole.statistics.expansions;
@@ -221,7 +228,7 @@ void respects_limit(const World& world, const SippOptions& options) {
     RC_ASSERT(cut.trajectory == (limit < needed ? std::nullopt : whole.trajectory));
     if (limit < needed) RC_ASSERT(cut.failure == PlanFailure::kExpansionLimit);
   }
-  RC_CLASSIFY(needed > 3, "more than three expansions");
+  return needed;
 }
 
 }  // namespace
@@ -231,10 +238,20 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("SIPP arrives exactly as early as an exhaustive search",
-                      [] { arrives_as_early_as_exhaustive_search(*any_world(3)); });
+  passed &= property("SIPP arrives exactly as early as an exhaustive search", [] {
+    constexpr int kWorlds = 2;
+    int late = 0;
+    int unsolved = 0;
+    for (int i = 0; i < kWorlds; ++i) {
+      const Meeting meeting = arrives_as_early_as_exhaustive_search(*any_world(4));
+      late += meeting == Meeting::kGivesWay;
+      unsolved += meeting == Meeting::kNoWay;
+    }
+    RC_CLASSIFY(late > 0, "some have to give way");
+    RC_CLASSIFY(unsolved > 0, "some without a way");
+  });
 
-  passed &= rc::check("SIPP and AA-SIPP keep clear of everything that moves and stands", [] {
+  passed &= property("SIPP and AA-SIPP keep clear of everything that moves and stands", [] {
     constexpr int kWorlds = 5;
     int found = 0;
     for (int i = 0; i < kWorlds; ++i) {
@@ -250,12 +267,12 @@ int main() {
     RC_CLASSIFY(found >= kWorlds, "many trajectories");
   });
 
-  passed &= rc::check("alone, SIPP goes the shortest stepwise way and AA-SIPP straight where it can", [] {
+  passed &= property("alone, SIPP goes the shortest stepwise way and AA-SIPP straight where it can", [] {
     constexpr int kWorlds = 5;
     for (int i = 0; i < kWorlds; ++i) is_straight_or_stepwise_alone(*any_world(0));
   });
 
-  passed &= rc::check("lazy and eager evaluation arrive together (SIPP)", [] {
+  passed &= property("lazy and eager evaluation arrive together (SIPP)", [] {
     const World world = *any_world(5);
     const Instance instance = world.instance();
     SippOptions eager = plain_sipp(world);
@@ -268,23 +285,43 @@ int main() {
     RC_CLASSIFY(has_to_give_way(instance, *lazily.trajectory, plain_sipp(world)), "has to give way");
   });
 
-  passed &= rc::check("indexed and plain reservations give the same trajectory", [] {
+  passed &= property("indexed and plain reservations arrive together (SIPP)", [] {
     const World world = *any_world(5);
     const Instance instance = world.instance();
-    for (SippOptions options : {plain_sipp(world), any_angle_sipp(world)}) {
-      const Outcome indexed = search(instance, options);
-      options.indexed_reservations = false;
-      const Outcome plain = search(instance, options);
-      RC_ASSERT(indexed.trajectory == plain.trajectory);
-      RC_ASSERT(indexed.statistics.expansions == plain.statistics.expansions);
-      RC_ASSERT(indexed.statistics.generations == plain.statistics.generations);
+    SippOptions with_plain = plain_sipp(world);
+    with_plain.indexed_reservations = false;
+    const Outcome indexed = search(instance, plain_sipp(world));
+    const Outcome plain = search(instance, with_plain);
+    RC_ASSERT(indexed.trajectory.has_value() == plain.trajectory.has_value());
+    if (!indexed.trajectory) return;
+    RC_ASSERT(std::abs(indexed.trajectory->arrival_s() - plain.trajectory->arrival_s()) <= kArrivalS);
+    RC_CLASSIFY(indexed.trajectory == plain.trajectory, "by the same way");
+  });
+
+  passed &= property("a search and a table that were used before change nothing", [] {
+    const World world = *any_world(5);
+    const Instance instance = world.instance();
+    for (const SippOptions& options : {plain_sipp(world), any_angle_sipp(world)}) {
+      const Outcome fresh = search(instance, options);
+      ReservationTable reservations(instance.map, instance.agents[0].radius_cells);
+      SippSearch sipp(instance, options);
+      SearchStatistics statistics;
+      const auto alone = sipp.plan(0, reservations, {}, statistics);
+      RC_ASSERT(alone.has_value() || !fresh.trajectory);
+      fill(reservations, instance);
+      for (int i = 0; i < 2; ++i) {
+        const auto again = sipp.plan(0, reservations, {}, statistics);
+        RC_ASSERT(again.has_value() == fresh.trajectory.has_value());
+        if (again) RC_ASSERT(*again == *fresh.trajectory);
+      }
     }
   });
 
-  passed &= rc::check("max_expansions: no more than so many, and the failure says so", [] {
+  passed &= property("max_expansions: no more than so many, and the failure says so", [] {
     const World world = *any_world(4);
-    respects_limit(world, plain_sipp(world));
+    const std::uint64_t plain = respects_limit(world, plain_sipp(world));
     respects_limit(world, any_angle_sipp(world));
+    RC_CLASSIFY(plain > 3, "more than three expansions");
   });
 
   return passed ? 0 : 1;

@@ -8,6 +8,7 @@
 
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 
 namespace sipplab {
 namespace {
@@ -37,6 +38,7 @@ PlanCase one_robot() {
   RC_PRE(!plan_case.instance.agents.empty());
   plan_case.instance.agents.resize(1);
   plan_case.instance.obstacles.clear();
+  note_case(plan_case);
   return plan_case;
 }
 
@@ -47,7 +49,7 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("solved exactly when breadth-first search reaches the goal", [] {
+  passed &= property("solved exactly when breadth-first search reaches the goal", [] {
     const PlanCase plan_case = one_robot();
     const Agent& agent = plan_case.instance.agents[0];
     const PlanResult result = plan(plan_case.instance, plan_case.options);
@@ -57,7 +59,7 @@ int main() {
     RC_CLASSIFY(plan_case.options.any_angle, "any-angle");
   });
 
-  passed &= rc::check("no faster than the bird flies, no slower than breadth-first search", [] {
+  passed &= property("no faster than the bird flies, no slower than breadth-first search", [] {
     const PlanCase plan_case = one_robot();
     const Agent& agent = plan_case.instance.agents[0];
     const PlanResult result = plan(plan_case.instance, plan_case.options);
@@ -72,11 +74,12 @@ int main() {
     }
   });
 
-  passed &= rc::check("any-angle goes straight where nothing is in the way", [] {
+  passed &= property("any-angle goes straight where nothing is in the way", [] {
     PlanCase plan_case = one_robot();
     plan_case.options.any_angle = true;
     GridMap& map = plan_case.instance.map;
     map = GridMap(map.width(), map.height());
+    note_case(plan_case);
     const Agent& agent = plan_case.instance.agents[0];
     const PlanResult result = plan(plan_case.instance, plan_case.options);
     RC_ASSERT(result.status == PlanStatus::kSolved);

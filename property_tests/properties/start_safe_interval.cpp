@@ -9,6 +9,7 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
 
 namespace sipplab {
@@ -25,7 +26,7 @@ Solved any_solved(const rc::Gen<double>& ssi) {
   Solved solved{*any_case(), {}};
   solved.plan_case.options.ssi_s = *ssi;
   RC_PRE(solved.plan_case.instance.agents.size() >= 2);
-  RC_LOG() << "planned with" << solved.plan_case << '\n';
+  note_case(solved.plan_case);
   solved.result = plan(solved.plan_case.instance, solved.plan_case.options);
   RC_CLASSIFY(solved.result.status == PlanStatus::kSolved, "solved");
   RC_CLASSIFY(solved.result.tries() > 1, "several tries");
@@ -60,13 +61,13 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("no robot comes too near a lower-priority start during [0, k], k a fraction",
-                      [] { keeps_its_promise(any_solved(any_eighths())); });
+  passed &= property("no robot comes too near a lower-priority start during [0, k], k a fraction",
+                     [] { keeps_its_promise(any_solved(any_eighths())); });
 
-  passed &= rc::check("no robot ever comes too near a lower-priority start, its own goal's disk excepted",
-                      [] { keeps_its_promise(any_solved(rc::gen::just(kInfiniteSsi))); });
+  passed &= property("no robot ever comes too near a lower-priority start, its own goal's disk excepted",
+                     [] { keeps_its_promise(any_solved(rc::gen::just(kInfiniteSsi))); });
 
-  passed &= rc::check("the promise holds at many times as well", [] {
+  passed &= property("the promise holds at many times as well", [] {
     const Solved solved = any_solved(any_eighths());
     RC_PRE(solved.result.status == PlanStatus::kSolved);
     const auto& agents = solved.plan_case.instance.agents;
@@ -82,7 +83,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("with an interval of 0, the others move as they do without the last robot", [] {
+  passed &= property("with an interval of 0, the others move as they do without the last robot", [] {
     const Solved solved = any_solved(rc::gen::just(0.0));
     RC_PRE(solved.result.status == PlanStatus::kSolved);
     PlannerOptions options = solved.plan_case.options;
@@ -99,7 +100,7 @@ int main() {
     RC_ASSERT(others.solution == expected);
   });
 
-  passed &= rc::check("a start is entered as soon as its protection ends, and no sooner", [] {
+  passed &= property("a start is entered as soon as its protection ends, and no sooner", [] {
     // Robot 0 has to go through the start of robot 1.
     const int eighths = *rc::gen::inRange(0, 64);
     Instance instance;

@@ -13,6 +13,7 @@
 #include "planner/prioritized/options.hpp"
 #include "planner/validator/separation.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
 
 namespace sipplab {
@@ -189,18 +190,18 @@ int main() {
   using namespace sipplab;
   bool passed = true;
 
-  passed &= rc::check("conflicts and clearance agree with sampling all pairs at many times",
-                      [] { agrees_on_pairs(*any_scene()); });
+  passed &= property("conflicts and clearance agree with sampling all pairs at many times",
+                     [] { agrees_on_pairs(*any_scene()); });
 
-  passed &= rc::check("overlap with the map agrees with sampling all bodies at many times",
-                      [] { agrees_on_the_map(*any_scene()); });
+  passed &= property("overlap with the map agrees with sampling all bodies at many times",
+                     [] { agrees_on_the_map(*any_scene()); });
 
-  passed &= rc::check("intrusions into protected starts agree with sampling", [] {
+  passed &= property("intrusions into protected starts agree with sampling", [] {
     const double ssi_s = *rc::gen::element(0.125, 0.5, 2.5, 7.0, kInfiniteSsi, kInfiniteSsi, kInfiniteSsi);
     agrees_on_protected_starts(*any_scene(), ssi_s);
   });
 
-  passed &= rc::check("a walk alone breaks no rule but those of the map", [] {
+  passed &= property("a walk alone breaks no rule but those of the map", [] {
     for (const Violation& violation : report_of(*any_scene()).violations) {
       RC_ASSERT(violation.kind == ViolationKind::kStaticObstacle ||
                 violation.kind == ViolationKind::kAgentCollision ||
@@ -208,7 +209,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("the verdict is the same after a quarter turn and in a mirror", [] {
+  passed &= property("the verdict is the same after a quarter turn and in a mirror", [] {
     const Scene scene = *any_scene();
     const double ssi_s = *rc::gen::element(0.0, 0.625, 3.0, kInfiniteSsi);
     const ValidationReport report = report_of(scene, ssi_s);
@@ -218,7 +219,7 @@ int main() {
     RC_CLASSIFY(report.valid(), "valid");
   });
 
-  passed &= rc::check("the verdict is the same with time scaled by a power of two", [] {
+  passed &= property("the verdict is the same with time scaled by a power of two", [] {
     const Scene scene = *any_scene();
     const double ssi_s = *rc::gen::element(0.0, 0.625, 3.0, kInfiniteSsi);
     const ValidationReport report = report_of(scene, ssi_s);
@@ -229,7 +230,7 @@ int main() {
     }
   });
 
-  passed &= rc::check("without one agent, exactly the violations without it remain", [] {
+  passed &= property("without one agent, exactly the violations without it remain", [] {
     const Scene scene = *any_scene();
     RC_PRE(!scene.instance.agents.empty());
     const double ssi_s = *rc::gen::element(0.0, 2.5, kInfiniteSsi);

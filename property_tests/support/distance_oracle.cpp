@@ -29,6 +29,18 @@ double origin_to_segment(Vec2 a, Vec2 b) {
   return norm(a + way * part);
 }
 
+/// Least distance over the time that both legs last, which may be rounded away where it
+/// is a single instant.
+double least_together(const Leg& a, const Leg& b, double rounding_s) {
+  const double begin_s = std::max(a.begin_s, b.begin_s);
+  const double end_s = std::min(a.end_s, b.end_s);
+  if (begin_s > end_s + rounding_s) return std::numeric_limits<double>::infinity();
+  // Seen from one of two points in uniform motion, the other one runs along a segment.
+  const Vec2 at_begin = place_at(b, begin_s) - place_at(a, begin_s);
+  if (end_s == kForever) return norm(at_begin);
+  return origin_to_segment(at_begin, place_at(b, end_s) - place_at(a, end_s));
+}
+
 /// Where a convex function is least in [low, high].
 template <class Function>
 double least_at(double low, double high, double enough, const Function& function) {
@@ -85,15 +97,7 @@ Leg leg_of(const Move& move, double departure_s) {
 
 Leg leg_at(Vec2 place) { return {place, place, 0, kForever}; }
 
-double closest_approach(const Leg& a, const Leg& b) {
-  const double begin_s = std::max(a.begin_s, b.begin_s);
-  const double end_s = std::min(a.end_s, b.end_s);
-  if (begin_s > end_s + time_rounding_s(begin_s)) return std::numeric_limits<double>::infinity();
-  // Seen from one of two points in uniform motion, the other one runs along a segment.
-  const Vec2 at_begin = place_at(b, begin_s) - place_at(a, begin_s);
-  if (end_s == kForever) return norm(at_begin);
-  return origin_to_segment(at_begin, place_at(b, end_s) - place_at(a, end_s));
-}
+double closest_approach(const Leg& a, const Leg& b) { return least_together(a, b, 0); }
 
 double distance_at(Vec2 place, const MovingDisk& disk, double time_s) {
   if (time_s < disk.begin_s || time_s > disk.end_s) return std::numeric_limits<double>::infinity();
@@ -114,7 +118,9 @@ double rounding_cells(double time_s, double speed) {
 BisectedSpan bisect_departures(const Move& move, const MovingDisk& disk, double reach) {
   const Leg obstacle = leg_of(disk);
   return below(disk.begin_s - move.way.length / move.speed, disk.end_s, disk.begin_s + kIntoRestS, reach,
-               [&](double departure_s) { return closest_approach(leg_of(move, departure_s), obstacle); });
+               [&](double departure_s) {
+                 return least_together(leg_of(move, departure_s), obstacle, time_rounding_s(departure_s));
+               });
 }
 
 BisectedSpan bisect_collision(Vec2 place, const MovingDisk& disk, double reach) {

@@ -22,9 +22,8 @@ Leg leg_of(const Move& move, double departure_s);
 /// At rest during [0, infinity).
 Leg leg_at(Vec2 place);
 
-/// Least distance of the two over the time that both legs last, both ends included up to
-/// rounding, in cells; infinite where there is no such time. A convex function of a
-/// departure.
+/// Least distance of the two over the time that both legs last, both ends included, in
+/// cells; infinite where there is no such time. A convex function of a departure.
 double closest_approach(const Leg& a, const Leg& b);
 
 /// Distance of `place` and the disk's centre at a time; infinite where the disk is not

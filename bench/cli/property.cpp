@@ -1,0 +1,273 @@
+// sipplab property: what the properties of property_tests/ gave, in the history; and a
+// counterexample again.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/property/property_log.hpp"
+#include "bench/property/replay.hpp"
+#include "bench/sweep/run_info.hpp"
+#include "db/property_runs.hpp"
+#include "planner/io/svg.hpp"
+#include "planner/io/text_file.hpp"
+#include "planner/io/write_instance.hpp"
+#include "property_tests/support/case_codec.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PropertyArguments {
+  HistoryFlags history;
+  std::string program;  ///< how sipplab was called: property programs lie below its folder
+
+  // record, totals
+  std::string log;
+  std::string mutant;
+
+  // list
+  std::optional<std::string> room;
+  bool all = false;
+  bool failed = false;
+  std::size_t limit = 0;
+
+  // show, replay
+  std::string run = "latest";
+  std::optional<std::string> instance_file;
+  std::optional<std::string> svg;
+};
+
+std::string totals_text(const bench::PropertyTotals& totals) {
+  return fmt::format("{} property runs, {} cases, {} discarded, {} failed, {} gave up, {:.1f} s\n",
+                     totals.runs, totals.cases, totals.discards, totals.failed, totals.gave_up,
+                     totals.wall_time_s);
+}
+
+nlohmann::ordered_json totals_json(const bench::PropertyTotals& totals) {
+  nlohmann::ordered_json json;
+  json["runs"] = totals.runs;
+  json["cases"] = totals.cases;
+  json["discards"] = totals.discards;
+  json["failed"] = totals.failed;
+  json["gave_up"] = totals.gave_up;
+  json["wall_time_s"] = totals.wall_time_s;
+  return json;
+}
+
+Expected<std::vector<db::PropertyRun>, std::string> read_log(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return Unexpected{text.error().message()};
+  return bench::parse_property_log(*text, path);
+}
+
+/// Sums up a log. With failures in it, the exit code is that of a negative verdict.
+int run_totals(const PropertyArguments& arguments) {
+  const auto runs = read_log(arguments.log);
+  if (!runs) return fail(kBadUsage, runs.error());
+  const bench::PropertyTotals totals = bench::totals_of(*runs);
+  print(arguments.history.json ? totals_json(totals).dump(2) + "\n" : totals_text(totals));
+  return totals.failed + totals.gave_up == 0 ? kSuccess : kNegativeVerdict;
+}
+
+int run_record(const PropertyArguments& arguments) {
+  const auto runs = read_log(arguments.log);
+  if (!runs) return fail(kBadUsage, runs.error());
+  const bench::SourceInfo source = bench::source_info();
+  db::PropertyOrigin origin;
+  origin.commit = source.commit;
+  origin.branch = source.branch;
+  origin.machine = bench::machine_info();
+  origin.build = bench::build_info(source);
+  origin.mutant = arguments.mutant;
+  auto database = db::Database::open(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto recorded = db::record_property_runs(*database, origin, *runs);
+  if (!recorded) return fail(recorded.error());
+  const bench::PropertyTotals totals = bench::totals_of(*runs);
+  if (arguments.history.json) {
+    nlohmann::ordered_json json = totals_json(totals);
+    json["added"] = recorded->added;
+    json["known"] = recorded->known;
+    print(json.dump(2) + "\n");
+  } else {
+    print(totals_text(totals) + fmt::format("{} recorded in {}, {} there already\n", recorded->added,
+                                            database->path().string(), recorded->known));
+  }
+  return kSuccess;
+}
+
+int run_list(const PropertyArguments& arguments) {
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  db::PropertyFilter filter;
+  filter.room = arguments.room;
+  if (arguments.failed) filter.status = "failed";
+  filter.every_run = arguments.all;
+  filter.limit = arguments.limit;
+  const auto table = db::list_property_runs(*database, filter);
+  if (!table) return fail(table.error());
+  print(db::format(*table, arguments.history.output_format()));
+  return kSuccess;
+}
+
+db::Result<db::PropertyReport> find_report(const PropertyArguments& arguments) {
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return Unexpected{database.error()};
+  if (arguments.run != "latest") return db::show_property_run(*database, std::stoll(arguments.run));
+  const auto id = db::latest_property_failure(*database);
+  if (!id) return Unexpected{id.error()};
+  return db::show_property_run(*database, *id);
+}
+
+int run_show(const PropertyArguments& arguments) {
+  const auto report = find_report(arguments);
+  if (!report) return fail(report.error());
+  print(db::format_property_report(*report, arguments.history.output_format()));
+  return kSuccess;
+}
+
+/// The property's program, below the folder of sipplab in the same build.
+fs::path program_of(const PropertyArguments& arguments, const std::string& room) {
+  return fs::path(arguments.program).parent_path() / "property_tests" / ("property_" + room);
+}
+
+/// Writes what was asked for beside the verdict; an error is one line.
+std::optional<std::string> write_pictures(const PropertyArguments& arguments, const PlanCase& plan_case,
+                                          const bench::CaseVerdict& verdict) {
+  if (arguments.instance_file) {
+    if (const auto error = write_file(*arguments.instance_file, write_instance_xml(plan_case.instance))) {
+      return error->message();
+    }
+  }
+  if (!arguments.svg) return std::nullopt;
+  SvgOptions options;
+  options.subtitle = verdict.text;
+  const auto picture = draw_svg(plan_case.instance, verdict.result.solution, verdict.report, options);
+  if (const auto error = write_file(*arguments.svg, picture)) return error->message();
+  return std::nullopt;
+}
+
+const char* text_of(bench::ProgramVerdict verdict) {
+  switch (verdict) {
+    case bench::ProgramVerdict::kHolds:
+      return "holds by now";
+    case bench::ProgramVerdict::kFails:
+      return "still fails";
+    case bench::ProgramVerdict::kNotRun:
+      break;
+  }
+  return "not run: its program is not there";
+}
+
+int run_replay(const PropertyArguments& arguments) {
+  const auto report = find_report(arguments);
+  if (!report) return fail(report.error());
+  const db::PropertyRun& run = report->run;
+  if (run.status != "failed") {
+    return fail(kBadUsage,
+                fmt::format("property run {} {}, expected one that failed", report->id, run.status));
+  }
+  const fs::path program = program_of(arguments, run.room);
+  const std::string command = bench::replay_command(program, run.reproduce);
+  const std::string& minimal = run.plan_case.empty() ? run.counterexample : run.plan_case;
+  std::optional<bench::CaseVerdict> planned;
+  if (const auto plan_case = decode_case(run.plan_case); plan_case && !run.plan_case.empty()) {
+    planned = bench::replay_case(*plan_case, [](const Instance& instance, const PlannerOptions& options) {
+      return plan(instance, options);
+    });
+    if (const auto error = write_pictures(arguments, *plan_case, *planned)) return fail(kBadUsage, *error);
+  } else if (arguments.instance_file || arguments.svg) {
+    return fail(kBadUsage,
+                fmt::format("property run {} planned no case, expected one to write or draw", report->id));
+  }
+  const bench::ProgramVerdict property = bench::replay_program(program, run.reproduce);
+
+  if (arguments.history.json) {
+    nlohmann::ordered_json json;
+    json["id"] = report->id;
+    json["title"] = run.title;
+    json["counterexample"] = minimal;
+    json["command"] = command;
+    json["plan"] = planned ? nlohmann::ordered_json(planned->text) : nlohmann::ordered_json();
+    json["property"] = text_of(property);
+    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  } else {
+    print(fmt::format("{}\n\n{}\ncommand   {}\n", run.title, minimal, command));
+    if (planned) print(fmt::format("plan      {}\n", planned->text));
+    print(fmt::format("property  {}\n", text_of(property)));
+  }
+  if ((planned && !planned->holds) || property == bench::ProgramVerdict::kFails) return kNegativeVerdict;
+  return planned || property == bench::ProgramVerdict::kHolds ? kSuccess : kInconclusive;
+}
+
+CLI::App* add_subcommand(CLI::App& property, const std::string& name, const std::string& description,
+                         PropertyArguments& arguments) {
+  CLI::App* command = property.add_subcommand(name, description);
+  arguments.history.add_to(*command);
+  return command;
+}
+
+void add_run_argument(CLI::App& command, PropertyArguments& arguments) {
+  command
+      .add_option("id", arguments.run, "as `sipplab property list` shows it, or latest: the newest failure")
+      ->capture_default_str()
+      ->check([](const std::string& text) {
+        const bool is_id = text == "latest" || (!text.empty() && text.size() <= 18 &&
+                                                text.find_first_not_of("0123456789") == std::string::npos);
+        return is_id ? "" : "'" + text + "', expected the id of a property run, or latest";
+      });
+}
+
+}  // namespace
+
+Command add_property_command(CLI::App& program, const Invocation& invocation) {
+  auto arguments = std::make_shared<PropertyArguments>();
+  arguments->program = invocation.program;
+  CLI::App* property =
+      program.add_subcommand("property", "results of the properties, and counterexamples again");
+  property->require_subcommand(1);
+
+  CLI::App* record =
+      add_subcommand(*property, "record", "take a log of property runs into the history", *arguments);
+  record->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+  record->add_option("--mutant", arguments->mutant, "name of the bug that was planted in the planner");
+  CLI::App* totals =
+      add_subcommand(*property, "totals", "sum up a log; exit code 1 with failures in it", *arguments);
+  totals->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+
+  CLI::App* list = add_subcommand(*property, "list", "the newest run of each property", *arguments);
+  list->add_option("--room", arguments->room, "only properties of this program");
+  list->add_flag("--failed", arguments->failed, "only failures");
+  list->add_flag("--all", arguments->all, "every run, newest first, those with planted bugs too");
+  list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
+  CLI::App* show =
+      add_subcommand(*property, "show", "one run, with its classes and counterexample", *arguments);
+  add_run_argument(*show, *arguments);
+  CLI::App* replay = add_subcommand(
+      *property, "replay", "try a counterexample again; exit code 1 where it still fails, 0 where it holds",
+      *arguments);
+  add_run_argument(*replay, *arguments);
+  replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
+      ->type_name("FILE");
+  replay->add_option("--svg", arguments->svg, "draw the case and its plan there")->type_name("FILE");
+
+  return {property, [=] {
+            if (record->parsed()) return run_record(*arguments);
+            if (totals->parsed()) return run_totals(*arguments);
+            if (list->parsed()) return run_list(*arguments);
+            if (show->parsed()) return run_show(*arguments);
+            return run_replay(*arguments);
+          }};
+}
+
+}  // namespace sipplab::cli

@@ -1,0 +1,150 @@
+// Lines of JSON to plain rows; everything that the history would refuse is refused
+// here, with the number of its line.
+#include "bench/property/property_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace sipplab::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kUuidLength = 36;
+
+/// Takes typed fields out of one object and remembers the first that is wrong.
+class Fields {
+ public:
+  explicit Fields(const Json& json) : json_(json) {}
+
+  std::string text(const char* key) {
+    const auto field = json_.find(key);
+    if (field != json_.end() && field->is_string()) return field->get<std::string>();
+    complain(key, "a text");
+    return {};
+  }
+
+  std::int64_t count(const char* key) {
+    const auto field = json_.find(key);
+    if (field != json_.end() && is_count(*field)) return field->get<std::int64_t>();
+    complain(key, "a count");
+    return 0;
+  }
+
+  std::optional<std::int64_t> optional_count(const char* key) {
+    if (!json_.contains(key)) return std::nullopt;
+    return count(key);
+  }
+
+  std::uint64_t seed(const char* key) {
+    const auto field = json_.find(key);
+    if (field != json_.end() && field->is_number_unsigned()) return field->get<std::uint64_t>();
+    complain(key, "a number of 64 bits without sign");
+    return 0;
+  }
+
+  std::map<std::string, std::int64_t> counts(const char* key) {
+    std::map<std::string, std::int64_t> counts;
+    const auto field = json_.find(key);
+    const bool is_object = field != json_.end() && field->is_object();
+    if (!is_object) complain(key, "an object of counts");
+    if (!is_object) return counts;
+    for (const auto& [name, value] : field->items()) {
+      if (!is_count(value) || value == 0)
+        complain(key, "counts greater than 0");
+      else
+        counts[name] = value.get<std::int64_t>();
+    }
+    return counts;
+  }
+
+  void require(bool right, const char* key, const char* expected) {
+    if (!right) complain(key, expected);
+  }
+
+  const std::string& error() const { return error_; }
+
+ private:
+  static bool is_count(const Json& value) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= db::kNoCountLimit;
+  }
+
+  void complain(const char* key, const char* expected) {
+    if (error_.empty()) error_ = fmt::format("\"{}\" is missing or wrong, expected {}", key, expected);
+  }
+
+  const Json& json_;
+  std::string error_;
+};
+
+Expected<db::PropertyRun, std::string> parse_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return Unexpected{std::string("not a property run, expected a JSON object")};
+  Fields fields(json);
+  db::PropertyRun run;
+  run.uuid = fields.text("uuid");
+  fields.require(run.uuid.size() == kUuidLength, "uuid", "36 characters");
+  run.started_utc = fields.text("started_utc");
+  run.room = fields.text("room");
+  run.title = fields.text("title");
+  fields.require(!run.title.empty(), "title", "a sentence");
+  run.seed = fields.seed("seed");
+  run.max_success = fields.count("max_success");
+  run.status = fields.text("status");
+  fields.require(run.status == "passed" || run.status == "failed" || run.status == "gave_up", "status",
+                 "passed, failed or gave_up");
+  run.cases = fields.count("cases");
+  run.discards = fields.count("discards");
+  run.shrinks = fields.count("shrinks");
+  run.shrink_tries = fields.count("shrink_tries");
+  fields.require(run.shrinks <= run.shrink_tries, "shrinks", "at most shrink_tries");
+  run.wall_time_ns = fields.count("wall_time_ns");
+  run.classes = fields.counts("classes");
+  run.message = fields.text("message");
+  fields.require(run.status == "passed" || !run.message.empty(), "message", "a reason");
+  run.reproduce = fields.text("reproduce");
+  fields.require((run.status == "failed") != run.reproduce.empty(), "reproduce", "it for failures alone");
+  run.counterexample = fields.text("counterexample");
+  run.plan_case = fields.text("plan_case");
+  run.case_robots = fields.optional_count("case_robots");
+  run.case_cells = fields.optional_count("case_cells");
+  if (!fields.error().empty()) return Unexpected{fields.error()};
+  return run;
+}
+
+}  // namespace
+
+Expected<std::vector<db::PropertyRun>, std::string> parse_property_log(std::string_view text,
+                                                                       const std::string& name) {
+  std::vector<db::PropertyRun> runs;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty()) continue;
+    auto run = parse_line(line);
+    if (!run) return Unexpected{fmt::format("{}:{}: {}", name, number, run.error())};
+    runs.push_back(std::move(*run));
+  }
+  if (runs.empty()) return Unexpected{name + ": no property run, expected at least one"};
+  return runs;
+}
+
+PropertyTotals totals_of(const std::vector<db::PropertyRun>& runs) {
+  constexpr double kSecondsPerNs = 1e-9;
+  PropertyTotals totals;
+  totals.runs = runs.size();
+  for (const db::PropertyRun& run : runs) {
+    totals.cases += run.cases;
+    totals.discards += run.discards;
+    if (run.status == "failed") ++totals.failed;
+    if (run.status == "gave_up") ++totals.gave_up;
+    totals.wall_time_s += static_cast<double>(run.wall_time_ns) * kSecondsPerNs;
+  }
+  return totals;
+}
+
+}  // namespace sipplab::bench

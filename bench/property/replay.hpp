@@ -1,0 +1,43 @@
+// Tries a recorded counterexample again: by planning and validating its case, and by
+// having the property's own program look at it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/validator/validator.hpp"
+#include "property_tests/support/plan_case.hpp"
+
+namespace sipplab::bench {
+
+using Planner = std::function<PlanResult(const Instance&, const PlannerOptions&)>;
+
+struct CaseVerdict {
+  bool holds = false;
+  std::string text;  ///< one line for a person
+  PlanResult result;
+  ValidationReport report;
+};
+
+/// Plans the case and has the validator check the plan, its start-safe interval too. A
+/// case without a plan holds: there is nothing that could be wrong. One that breaks a
+/// rule of instances does not.
+CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner);
+
+/// The shell command that tries a counterexample again.
+std::string replay_command(const std::filesystem::path& program, const std::string& reproduce);
+
+enum class ProgramVerdict {
+  kHolds,
+  kFails,   ///< or crashed
+  kNotRun,  ///< no such program, or it cannot be started
+};
+
+/// Runs the program with RC_PARAMS set to `reproduce`; what it prints goes to stderr.
+/// Nothing is logged.
+ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& reproduce);
+
+}  // namespace sipplab::bench

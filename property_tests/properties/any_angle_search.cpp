@@ -1,0 +1,79 @@
+// AA-SIPP against SIPP. Plans of AA-SIPP are not the shortest that there are, but each
+// node that SIPP comes to is offered to AA-SIPP no later, step by step, and its straight
+// ways only add to that: with a bound that never overestimates, no arrival is later.
+#include <rapidcheck.h>
+
+#include <cstdint>
+
+#include "planner/search/sipp_search.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr std::int32_t kWidth = 6;
+constexpr std::int32_t kHeight = 5;
+constexpr int kMostWalks = 5;
+constexpr int kWorldsPerCase = 5;
+/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each.
+constexpr double kArrivalS = 1e-6;
+
+/// One robot among obstacles that walk.
+PlanCase any_world() {
+  PlanCase world;
+  Instance& instance = world.instance;
+  instance.map = GridMap(kWidth, kHeight);
+  Agent& agent = instance.agents.emplace_back();
+  agent.start = *any_cell(kWidth, kHeight);
+  agent.goal = *any_cell(kWidth, kHeight);
+  agent.radius_cells = *any_of({0.5, 0.25, 0.4});
+  agent.speed_cells_per_s = *any_speed();
+  const int blocked = *rc::gen::inRange(0, 5);
+  for (int i = 0; i < blocked; ++i) {
+    const Cell cell = *any_cell(kWidth, kHeight);
+    if (cell != agent.start && cell != agent.goal) instance.map.set_blocked(cell, true);
+  }
+  const int walks = *rc::gen::inRange(0, kMostWalks + 1);
+  for (int i = 0; i < walks; ++i) {
+    const Walk walk = *any_walk(kWidth, kHeight);
+    if (distance(walk.start, agent.start) < walk.radius + agent.radius_cells) continue;
+    instance.obstacles.push_back({"", walk.radius, walk.trajectory()});
+  }
+  world.options.connectedness = *any_of({2, 3, 4, 5});
+  return world;
+}
+
+Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle) {
+  SippOptions options;
+  options.any_angle = any_angle;
+  options.connectedness = world.options.connectedness;
+  ReservationTable reservations(world.instance.map, world.instance.agents[0].radius_cells);
+  for (const DynamicObstacle& obstacle : world.instance.obstacles) {
+    reservations.add(obstacle.trajectory, obstacle.radius_cells);
+  }
+  SearchStatistics statistics;
+  return SippSearch(world.instance, options).plan(0, reservations, {}, statistics);
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  const bool passed = property("AA-SIPP arrives wherever SIPP does, and no later", [] {
+    bool both = false;
+    for (int i = 0; i < kWorldsPerCase; ++i) {
+      const PlanCase world = any_world();
+      note_case(world);
+      const auto stepwise = search(world, false);
+      if (!stepwise) continue;
+      const auto any_angle = search(world, true);
+      RC_ASSERT(static_cast<bool>(any_angle));
+      RC_ASSERT(any_angle->arrival_s() <= stepwise->arrival_s() + kArrivalS);
+      both = both || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;
+    }
+    RC_CLASSIFY(both, "some arrive earlier");
+  });
+  return passed ? 0 : 1;
+}

@@ -1,0 +1,392 @@
+// Formats: what is written reads back as it was, different formats mean the same, and
+// damaged texts are refused in one line.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/io/load_instance.hpp"
+#include "planner/io/movingai.hpp"
+#include "planner/io/solution_io.hpp"
+#include "planner/io/text_file.hpp"
+#include "planner/io/write_instance.hpp"
+#include "planner/io/xml_instance.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+#include "property_tests/support/scratch_folder.hpp"
+#include "property_tests/support/texts.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr const char* kFile = "some/file";
+
+// --- instances that hold everything a format has to keep ----------------------------
+
+rc::Gen<Cell> any_far_cell() {
+  return rc::gen::weightedOneOf<Cell>({{4, any_cell(9, 9)},
+                                       {1, rc::gen::construct<Cell>(rc::gen::arbitrary<std::int32_t>(),
+                                                                    rc::gen::arbitrary<std::int32_t>())}});
+}
+
+rc::Gen<double> any_radius_allowed() {
+  return rc::gen::weightedOneOf<double>({{3, any_radius()}, {1, any_real_between(1e-9, kMaxRadiusCells)}});
+}
+
+rc::Gen<double> any_speed_allowed() {
+  return rc::gen::weightedOneOf<double>(
+      {{3, any_speed()}, {1, any_real_between(kMinSpeedCellsPerS, kMaxSpeedCellsPerS)}});
+}
+
+rc::Gen<double> any_heading() { return any_real_between(0, std::nextafter(360.0, 0.0)); }
+
+rc::Gen<Agent> any_agent() {
+  return rc::gen::build<Agent>(
+      rc::gen::set(&Agent::id, any_text()), rc::gen::set(&Agent::start, any_far_cell()),
+      rc::gen::set(&Agent::goal, any_far_cell()), rc::gen::set(&Agent::radius_cells, any_radius_allowed()),
+      rc::gen::set(&Agent::speed_cells_per_s, any_speed_allowed()),
+      rc::gen::set(&Agent::start_heading_deg,
+                   rc::gen::weightedOneOf<double>({{2, rc::gen::just(0.0)}, {1, any_heading()}})),
+      rc::gen::set(&Agent::goal_heading_deg, rc::gen::map(rc::gen::maybe(any_heading()),
+                                                          [](const rc::Maybe<double>& heading) {
+                                                            return heading ? std::optional<double>(*heading)
+                                                                           : std::nullopt;
+                                                          })),
+      rc::gen::set(&Agent::rotation_speed, rc::gen::weightedOneOf<double>(
+                                               {{2, rc::gen::just(1.0)}, {1, any_real_between(1e-3, 1e3)}})));
+}
+
+rc::Gen<DynamicObstacle> any_obstacle() {
+  return rc::gen::apply(
+      [](const std::string& id, const Walk& walk, double radius_cells) {
+        return DynamicObstacle{id, radius_cells, walk.trajectory()};
+      },
+      any_text(), any_walk(9, 9), any_radius_allowed());
+}
+
+rc::Gen<GridMap> any_map() {
+  const auto any_side = rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::int32_t>(1, 12));
+  return rc::gen::mapcat(rc::gen::pair(any_side, any_side), [](std::pair<std::int32_t, std::int32_t> size) {
+    const auto cells = static_cast<std::size_t>(size.first) * static_cast<std::size_t>(size.second);
+    return rc::gen::map(rc::gen::container<std::vector<bool>>(cells, rc::gen::arbitrary<bool>()),
+                        [size](const std::vector<bool>& blocked) {
+                          GridMap map(size.first, size.second);
+                          for (std::size_t i = 0; i < blocked.size(); ++i)
+                            map.set_blocked(map.cell(i), blocked[i]);
+                          return map;
+                        });
+  });
+}
+
+/// Need not keep the rules of find_error: a format keeps what it is given.
+rc::Gen<Instance> any_instance() {
+  return rc::gen::build<Instance>(
+      rc::gen::set(&Instance::map, any_map()),
+      rc::gen::set(&Instance::agents,
+                   rc::gen::resize(6, rc::gen::container<std::vector<Agent>>(any_agent()))),
+      rc::gen::set(&Instance::obstacles,
+                   rc::gen::resize(3, rc::gen::container<std::vector<DynamicObstacle>>(any_obstacle()))));
+}
+
+/// The parts of one file as an instance; nothing where it holds no map.
+std::optional<Instance> joined(InstanceParts parts) {
+  if (!parts.map) return std::nullopt;
+  Instance instance;
+  instance.map = std::move(parts.map->map);
+  if (parts.agents) instance.agents = std::move(parts.agents->items);
+  if (parts.obstacles) instance.obstacles = std::move(parts.obstacles->items);
+  return instance;
+}
+
+void check_instance_survives(const Instance& instance) {
+  const auto parts = parse_xml_instance(write_instance_xml(instance), kFile);
+  RC_ASSERT(parts.has_value());
+  RC_ASSERT(parts->warnings.empty());
+  const auto read = joined(*parts);
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(read->map == instance.map);
+  RC_ASSERT(read->agents == instance.agents);
+  RC_ASSERT(read->obstacles == instance.obstacles);
+  RC_ASSERT(content_hash(*read) == content_hash(instance));
+}
+
+// --- the same problem in several formats --------------------------------------------
+
+/// The dialect of the AAMAS 2018 archive.
+std::string archive_xml(const Instance& instance) {
+  const auto element = [](const std::string& name, std::int64_t value) {
+    return "<" + name + ">" + std::to_string(value) + "</" + name + ">\n";
+  };
+  const GridMap& map = instance.map;
+  std::string text = "<root>\n<map>\n" + element("width", map.width()) + element("height", map.height());
+  text += element("agents", static_cast<std::int64_t>(instance.agents.size()));
+  for (const Agent& agent : instance.agents) {
+    text += element("startx", agent.start.x) + element("starty", agent.start.y) +
+            element("finishx", agent.goal.x) + element("finishy", agent.goal.y);
+  }
+  text += "<grid>\n";
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    text += "<row>";
+    for (std::int32_t x = 0; x < map.width(); ++x) text += map.is_blocked({x, y}) ? "1 " : "0 ";
+    text += "</row>\n";
+  }
+  return text + "</grid>\n</map>\n</root>\n";
+}
+
+std::string hash_of(const InstanceFiles& files) {
+  InstanceFiles all = files;
+  all.allow_unreachable = true;
+  const auto loaded = load_instance(all);
+  if (!loaded) RC_FAIL(loaded.error().message());
+  return content_hash(loaded->instance);
+}
+
+void means_the_same(PlanCase plan_case) {
+  Instance& instance = plan_case.instance;
+  // What all formats can say.
+  instance.obstacles.clear();
+  for (Agent& agent : instance.agents) agent.radius_cells = kDefaultRadiusCells;
+  for (Agent& agent : instance.agents) agent.speed_cells_per_s = kDefaultSpeedCellsPerS;
+  RC_PRE(!find_error(instance));
+
+  const ScratchFolder folder;
+  const auto file = [&folder](const char* name, const std::string& text) {
+    const std::string path = (folder.path() / name).string();
+    RC_ASSERT(!write_file(path, text));
+    return path;
+  };
+  const std::string xml = file("one", write_instance_xml(instance));
+  const std::string map = file("two", write_movingai_map(instance.map));
+  const std::string scenario = file("three", write_movingai_scen(instance, "two"));
+  const std::string archive = file("four", archive_xml(instance));
+  Instance empty;
+  empty.map = instance.map;
+  const std::string map_xml = file("five", write_instance_xml(empty));
+
+  const std::string expected = content_hash(instance);
+  const auto files = [](std::optional<std::string> whole, std::optional<std::string> map_file,
+                        std::optional<std::string> task) {
+    InstanceFiles result;
+    result.instance = std::move(whole);
+    result.map = std::move(map_file);
+    result.task = std::move(task);
+    return result;
+  };
+  RC_ASSERT(hash_of(files(xml, {}, {})) == expected);
+  RC_ASSERT(hash_of(files(archive, {}, {})) == expected);
+  RC_ASSERT(hash_of(files({}, map, scenario)) == expected);
+  RC_ASSERT(hash_of(files({}, map_xml, scenario)) == expected);
+  RC_ASSERT(hash_of(files({}, map, xml)) == expected);
+  RC_ASSERT(hash_of(files({}, map, archive)) == expected);
+  if (!instance.agents.empty()) RC_ASSERT(hash_of(files(scenario, {}, {})) == expected);
+  RC_CLASSIFY(instance.agents.empty(), "no robots");
+  RC_CLASSIFY(instance.map.blocked_count() > 0, "blocked cells");
+}
+
+// --- solutions ----------------------------------------------------------------------
+
+struct Told {
+  Instance instance;
+  SolutionDocument document;
+};
+
+/// Walks of random robots, right or wrong, and everything that is told about a plan.
+Told any_told() {
+  Told told;
+  Scene scene = *any_scene();
+  std::set<std::string> ids;
+  for (Agent& agent : scene.instance.agents) {
+    agent.id = *any_text();
+    while (!ids.insert(agent.id).second) agent.id += 'x';
+  }
+  // Times that no planner would make.
+  if (*rc::gen::inRange(0, 4) == 0) {
+    for (Trajectory& trajectory : scene.solution.trajectories) {
+      for (TimedMotion& motion : trajectory.motions) {
+        motion.begin_s = *any_real_between(-1e6, 1e6);
+        motion.end_s = *any_real_between(-1e300, 1e300);
+      }
+    }
+  }
+  told.instance = std::move(scene.instance);
+  SolutionDocument& document = told.document;
+  document.status = *rc::gen::weightedElement<std::string>({{6, "solved"}, {1, "failed"}, {1, "limit"}});
+  if (document.status == "solved") {
+    document.solution = std::move(scene.solution);
+    document.makespan_s = *any_real_between(0, 1e6);
+    document.flowtime_s = *any_real_between(0, 1e9);
+    document.plan_hash = plan_hash(document.solution);
+    document.valid = *rc::gen::arbitrary<bool>();
+  }
+  for (AgentIndex i = told.instance.agents.size(); i > 0; --i) document.order.push_back(i - 1);
+  document.tries = *rc::gen::arbitrary<std::uint32_t>();
+  document.expansions = *rc::gen::inRange<std::uint64_t>(0, std::uint64_t{1} << 53);
+  document.generations = *rc::gen::arbitrary<std::uint32_t>();
+  document.planning_seconds = *any_real_between(0, 1e5);
+  if (*rc::gen::inRange(0, 3) > 0) {
+    document.options = any_case_of(CaseFamily::kScattered)(rc::Random(1), 1).value().options;
+    document.options->ssi_s = *any_of({0.0, 2.5, 1.0 / 3, kInfiniteSsi});
+    document.options->order = static_cast<InitialOrder>(*rc::gen::inRange(0, 4));
+    document.options->rescheduling = static_cast<Rescheduling>(*rc::gen::inRange(0, 3));
+    document.options->any_angle = *rc::gen::arbitrary<bool>();
+    document.options->connectedness = *rc::gen::inRange(2, 6);
+    document.options->seed = *rc::gen::arbitrary<std::uint64_t>();
+  }
+  return told;
+}
+
+void check_options_survive(const std::optional<PlannerOptions>& read,
+                           const std::optional<PlannerOptions>& written) {
+  RC_ASSERT(read.has_value() == written.has_value());
+  if (!read) return;
+  RC_ASSERT(read->ssi_s == written->ssi_s);
+  RC_ASSERT(read->order == written->order);
+  RC_ASSERT(read->rescheduling == written->rescheduling);
+  RC_ASSERT(read->any_angle == written->any_angle);
+  RC_ASSERT(read->connectedness == written->connectedness);
+  RC_ASSERT(read->seed == written->seed);
+}
+
+void check_solution_survives(const Told& told, SolutionFormat format) {
+  const SolutionDocument& written = told.document;
+  const auto read = parse_solution(write_solution(format, told.instance, written), kFile, told.instance);
+  if (!read) RC_FAIL(read.error().message());
+  if (format == SolutionFormat::kCsv) {
+    if (written.status == "solved") RC_ASSERT(read->solution == written.solution);
+    return;
+  }
+  RC_ASSERT(read->solution == written.solution);
+  RC_ASSERT(read->status == written.status);
+  RC_ASSERT(read->valid == written.valid);
+  RC_ASSERT(read->order == written.order);
+  RC_ASSERT(read->makespan_s == written.makespan_s);
+  RC_ASSERT(read->flowtime_s == written.flowtime_s);
+  RC_ASSERT(read->tries == written.tries);
+  RC_ASSERT(read->expansions == written.expansions);
+  RC_ASSERT(read->generations == written.generations);
+  RC_ASSERT(read->planning_seconds == written.planning_seconds);
+  RC_ASSERT(read->plan_hash == written.plan_hash);
+  check_options_survive(read->options, written.options);
+}
+
+constexpr SolutionFormat kSolutionFormats[] = {SolutionFormat::kXml, SolutionFormat::kJson,
+                                               SolutionFormat::kCsv};
+
+// --- damaged texts ------------------------------------------------------------------
+
+/// One line that begins with the file, says something, and names a line of the text if it
+/// can; what is missing at the end is on the line after the last.
+void check_complaint(const InputError& error, const std::string& text) {
+  const std::string message = error.message();
+  for (const char c : message) RC_ASSERT(static_cast<unsigned char>(c) >= 0x20);
+  RC_ASSERT(message.rfind(std::string(kFile) + ":", 0) == 0u);
+  RC_ASSERT(!error.what.empty());
+  const auto lines = static_cast<std::ptrdiff_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  RC_ASSERT(error.line >= 0);
+  RC_ASSERT(error.line <= lines + 1);
+  RC_TAG("refused");
+}
+
+void read_damaged_xml(const std::string& text) {
+  const auto parts = parse_xml_instance(text, kFile);
+  if (!parts) return check_complaint(parts.error(), text);
+  for (const std::string& warning : parts->warnings) {
+    RC_ASSERT(warning.rfind(kFile, 0) == 0u);
+    RC_ASSERT(warning.find('\n') == std::string::npos);
+  }
+  RC_TAG("read");
+  // What was understood is an instance like any other.
+  if (const auto instance = joined(*parts)) check_instance_survives(*instance);
+}
+
+void read_damaged_solution(const Told& told, const std::string& text) {
+  const auto document = parse_solution(text, kFile, told.instance);
+  if (!document) return check_complaint(document.error(), text);
+  RC_TAG("read");
+  if (document->solution.trajectories.empty()) return;
+  Told again{told.instance, *document};
+  const auto read = parse_solution(solution_to_json(again.instance, again.document), kFile, again.instance);
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(read->solution == document->solution);
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("an instance reads back from XML as it was", [] {
+    const Instance instance = *any_instance();
+    check_instance_survives(instance);
+    RC_CLASSIFY(!instance.obstacles.empty(), "moving obstacles");
+    RC_CLASSIFY(instance.agents.size() > 1, "several robots");
+  });
+
+  passed &= property("a map and a scenario read back from MovingAI's formats as they were", [] {
+    Instance instance;
+    instance.map = *any_map();
+    const auto robots = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::size_t>(0, 8));
+    for (std::size_t i = 0; i < robots; ++i) {
+      Agent agent;
+      agent.id = std::to_string(i);
+      agent.start = *any_cell(instance.map.width(), instance.map.height());
+      agent.goal = *any_cell(instance.map.width(), instance.map.height());
+      instance.agents.push_back(agent);
+    }
+    const auto map = parse_movingai_map(write_movingai_map(instance.map), kFile);
+    RC_ASSERT(map.has_value());
+    RC_ASSERT(*map == instance.map);
+    const auto scenario = parse_movingai_scen(write_movingai_scen(instance, "maps/a.map"), kFile);
+    RC_ASSERT(scenario.has_value());
+    RC_ASSERT(scenario->agents == instance.agents);
+    if (robots == 0) return;
+    RC_ASSERT(scenario->map_name == "maps/a.map");
+    RC_ASSERT(scenario->map_width == instance.map.width());
+    RC_ASSERT(scenario->map_height == instance.map.height());
+  });
+
+  passed &=
+      property("one problem has one name, whatever format it comes in", [] { means_the_same(*any_case()); });
+
+  passed &= property("a solution reads back from each format as it was", [] {
+    const Told told = any_told();
+    for (const SolutionFormat format : kSolutionFormats) check_solution_survives(told, format);
+    RC_TAG(told.document.status);
+    RC_CLASSIFY(told.document.options.has_value(), "with options");
+  });
+
+  passed &= property("a damaged XML instance is refused in one line, or is an instance",
+                     [] { read_damaged_xml(*any_damage(write_instance_xml(*any_instance()))); });
+
+  passed &= property("a damaged archive instance is refused in one line, or is an instance",
+                     [] { read_damaged_xml(*any_damage(archive_xml((*any_case()).instance))); });
+
+  passed &= property("damaged MovingAI files are refused in one line, or read", [] {
+    const Instance instance = (*any_case()).instance;
+    const std::string map_text = *any_damage(write_movingai_map(instance.map));
+    const auto map = parse_movingai_map(map_text, kFile);
+    if (!map) check_complaint(map.error(), map_text);
+    if (map) RC_ASSERT(*parse_movingai_map(write_movingai_map(*map), kFile) == *map);
+    const std::string scenario_text = *any_damage(write_movingai_scen(instance, "a.map"));
+    const auto scenario = parse_movingai_scen(scenario_text, kFile);
+    if (!scenario) check_complaint(scenario.error(), scenario_text);
+    RC_CLASSIFY(map.has_value(), "map read");
+    RC_CLASSIFY(scenario.has_value(), "scenario read");
+  });
+
+  passed &= property("a damaged solution is refused in one line, or is a solution", [] {
+    const Told told = any_told();
+    const SolutionFormat format = *rc::gen::elementOf(
+        std::vector<SolutionFormat>(std::begin(kSolutionFormats), std::end(kSolutionFormats)));
+    read_damaged_solution(told, *any_damage(write_solution(format, told.instance, told.document)));
+  });
+
+  return passed ? 0 : 1;
+}

@@ -1,0 +1,233 @@
+// The rules of an instance against the slow and obvious model: every body against every
+// other and against every blocked cell. Radii in eighths, so that contact is exact.
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "planner/instance/instance.hpp"
+#include "planner/instance/reachability.hpp"
+#include "planner/solution/solution.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr std::int64_t kParts = 8;  // of a cell
+
+struct Body {
+  Cell cell;
+  std::int64_t eighths = 4;  ///< radius
+};
+
+bool bodies_overlap(const Body& a, const Body& b) {
+  const std::int64_t dx = kParts * (a.cell.x - b.cell.x);
+  const std::int64_t dy = kParts * (a.cell.y - b.cell.y);
+  const std::int64_t reach = a.eighths + b.eighths;
+  return dx * dx + dy * dy < reach * reach;
+}
+
+/// Whether the disk leaves the grid or overlaps a blocked square.
+bool stands_badly(const GridMap& map, const Body& body) {
+  const auto gap = [](std::int64_t cells) {
+    return std::max<std::int64_t>(0, kParts * std::abs(cells) - kParts / 2);
+  };
+  // The grid is surrounded by blocked cells as far as any body reaches.
+  const auto beyond = static_cast<std::int32_t>(body.eighths / kParts + 2);
+  for (std::int32_t y = -beyond; y < map.height() + beyond; ++y) {
+    for (std::int32_t x = -beyond; x < map.width() + beyond; ++x) {
+      if (map.contains({x, y}) && !map.is_blocked({x, y})) continue;
+      const std::int64_t dx = gap(x - body.cell.x);
+      const std::int64_t dy = gap(y - body.cell.y);
+      if (dx * dx + dy * dy < body.eighths * body.eighths) return true;
+    }
+  }
+  return false;
+}
+
+bool any_bad(const GridMap& map, const std::vector<Body>& bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (stands_badly(map, bodies[i])) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (bodies_overlap(bodies[i], bodies[j])) return true;
+    }
+  }
+  return false;
+}
+
+/// Robots anywhere; about half of the instances keep all rules.
+Instance any_robots(std::vector<Body>& starts, std::vector<Body>& goals) {
+  Instance instance;
+  instance.map = GridMap(*rc::gen::inRange(1, 24), *rc::gen::inRange(1, 24));
+  const auto cell = [&] {
+    return Cell{*rc::gen::inRange(0, instance.map.width()), *rc::gen::inRange(0, instance.map.height())};
+  };
+  const int blocked = *rc::gen::inRange(0, 4);
+  for (int i = 0; i < blocked; ++i) instance.map.set_blocked(cell(), true);
+  const int robots = *rc::gen::inRange(1, 24);
+  for (int i = 0; i < robots; ++i) {
+    const std::int64_t eighths = *rc::gen::element<std::int64_t>(1, 2, 3, 4, 4, 4, 4, 6, 8, 12, 20);
+    Agent agent;
+    agent.id = std::to_string(i);
+    agent.radius_cells = static_cast<double>(eighths) / kParts;
+    const Body start{cell(), eighths};
+    const Body goal{cell(), eighths};
+    // A robot that does not fit is left out, three times in four.
+    const bool keep = *rc::gen::inRange(0, 40) == 0;
+    std::vector<Body> with_start = starts;
+    std::vector<Body> with_goal = goals;
+    with_start.push_back(start);
+    with_goal.push_back(goal);
+    if (!keep && (any_bad(instance.map, with_start) || any_bad(instance.map, with_goal))) continue;
+    agent.start = start.cell;
+    agent.goal = goal.cell;
+    instance.agents.push_back(agent);
+    starts = with_start;
+    goals = with_goal;
+  }
+  return instance;
+}
+
+/// One large body among many small ones, on a map on which buckets by size pay.
+void large_among_small() {
+  Instance instance;
+  instance.map = GridMap(64, 64);
+  std::vector<Body> starts;
+  const auto add = [&](Cell cell, std::int64_t eighths) {
+    Agent& agent = instance.agents.emplace_back();
+    agent.radius_cells = static_cast<double>(eighths) / kParts;
+    agent.start = cell;
+    // All goals far from each other, and none in question.
+    agent.goal = eighths > 4 ? Cell{58, 58}
+                             : Cell{static_cast<std::int32_t>(starts.size()) % 64,
+                                    static_cast<std::int32_t>(starts.size()) / 64};
+    starts.push_back({cell, eighths});
+  };
+  const std::int64_t large = *rc::gen::inRange<std::int64_t>(8, 40);
+  add({*rc::gen::inRange(6, 58), *rc::gen::inRange(20, 58)}, large);
+  const Cell middle = starts.front().cell;
+  // A field of small robots, without a hole of about the large one's size.
+  const std::int64_t hole = large + 4 + *rc::gen::inRange<std::int64_t>(-8, 24);
+  for (std::int32_t y = middle.y - 5; y <= middle.y + 5; ++y) {
+    for (std::int32_t x = middle.x - 6; x <= middle.x + 5; ++x) {
+      const std::int64_t dx = kParts * (x - middle.x);
+      const std::int64_t dy = kParts * (y - middle.y);
+      if (dx * dx + dy * dy >= hole * hole) add({x, y}, 4);
+    }
+  }
+  bool bad = false;
+  for (std::size_t i = 1; i < starts.size(); ++i) bad = bad || bodies_overlap(starts[0], starts[i]);
+  RC_CLASSIFY(bad, "bad");
+  RC_ASSERT(find_error(instance).has_value() == bad);
+}
+
+/// Whether a chain of free 4-neighbours joins the two.
+bool joined(const GridMap& map, Cell from, Cell to) {
+  std::vector<bool> seen(map.cell_count(), false);
+  std::vector<Cell> ahead{from};
+  seen[map.index(from)] = true;
+  while (!ahead.empty()) {
+    const Cell cell = ahead.back();
+    ahead.pop_back();
+    if (cell == to) return true;
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
+      const Cell next{cell.x + step.x, cell.y + step.y};
+      if (!map.contains(next) || map.is_blocked(next) || seen[map.index(next)]) continue;
+      seen[map.index(next)] = true;
+      ahead.push_back(next);
+    }
+  }
+  return false;
+}
+
+void reachable_where_joined() {
+  Instance instance;
+  instance.map = GridMap(*rc::gen::inRange(1, 8), *rc::gen::inRange(1, 8));
+  GridMap& map = instance.map;
+  for (std::size_t i = 0; i < map.cell_count(); ++i) {
+    map.set_blocked(map.cell(i), *rc::gen::inRange(0, 5) < 2);
+  }
+  Agent& agent = instance.agents.emplace_back();
+  agent.start = {*rc::gen::inRange(0, map.width()), *rc::gen::inRange(0, map.height())};
+  agent.goal = {*rc::gen::inRange(0, map.width()), *rc::gen::inRange(0, map.height())};
+  agent.radius_cells = *rc::gen::element(0.5, 0.4, 0.25);
+  map.set_blocked(agent.start, false);
+  map.set_blocked(agent.goal, false);
+  note_case({instance, {}});
+  const bool reachable = joined(map, agent.start, agent.goal);
+  RC_CLASSIFY(reachable, "reachable");
+  RC_ASSERT(find_unreachable_goal(instance).has_value() == !reachable);
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("find_error: complains exactly where whole numbers do; touching is allowed", [] {
+    std::vector<Body> starts;
+    std::vector<Body> goals;
+    const Instance instance = any_robots(starts, goals);
+    note_case({instance, {}});
+    const bool bad = any_bad(instance.map, starts) || any_bad(instance.map, goals);
+    RC_CLASSIFY(bad, "bad");
+    RC_CLASSIFY(instance.agents.size() > 10, "more than 10 robots");
+    RC_ASSERT(find_error(instance).has_value() == bad);
+  });
+
+  passed &= property("find_error: a large body among many small ones overlaps where whole numbers say so",
+                     [] { large_among_small(); });
+
+  passed &= property("find_unreachable_goal: a slim robot reaches what free 4-neighbours join",
+                     [] { reachable_where_joined(); });
+
+  passed &= property("content_hash: equal for equal problems, another for each change", [] {
+    const Instance instance = (*any_case()).instance;
+    RC_PRE(!instance.agents.empty());
+    Instance same = instance;
+    same.agents[0].id = "another name";
+    RC_ASSERT(content_hash(same) == content_hash(instance));
+    const std::vector<std::function<void(Instance&)>> changes = {
+        [](Instance& other) { other.agents[0].speed_cells_per_s *= 2; },
+        [](Instance& other) { other.agents[0].radius_cells *= 2; },
+        [](Instance& other) { ++other.agents[0].start.x; },
+        [](Instance& other) { ++other.agents[0].goal.y; },
+        [](Instance& other) { other.agents[0].start_heading_deg += 1; },
+        [](Instance& other) { other.agents[0].goal_heading_deg = 0; },
+        [](Instance& other) { other.agents.pop_back(); },
+        [](Instance& other) {
+          other.obstacles.push_back({"", 0.5, {{0, 0}, {}}});
+        },
+        [](Instance& other) {
+          other.map.set_blocked({0, 0}, !other.map.is_blocked({0, 0}));
+        },
+    };
+    for (const auto& change : changes) {
+      Instance other = instance;
+      change(other);
+      RC_ASSERT(content_hash(other) != content_hash(instance));
+    }
+  });
+
+  passed &= property("makespan is the latest arrival, flowtime the sum of all", [] {
+    const Scene scene = *any_scene();
+    double latest_s = 0;
+    double sum_s = 0;
+    for (const Trajectory& trajectory : scene.solution.trajectories) {
+      const double arrival_s = trajectory.motions.empty() ? 0 : trajectory.motions.back().end_s;
+      latest_s = std::max(latest_s, arrival_s);
+      sum_s += arrival_s;
+    }
+    RC_ASSERT(makespan_s(scene.solution) == latest_s);
+    RC_ASSERT(flowtime_s(scene.solution) == sum_s);
+  });
+
+  return passed ? 0 : 1;
+}

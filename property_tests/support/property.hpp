@@ -1,0 +1,40 @@
+// One property: checked by rapidcheck, summed up on stderr, and kept in a log that
+// the history can take in (`sipplab property record`).
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <string>
+#include <utility>
+
+#include "property_tests/support/plan_case.hpp"
+
+// Set for each program by property_tests/CMakeLists.txt.
+#ifndef SIPPLAB_PROPERTY_ROOM
+#define SIPPLAB_PROPERTY_ROOM ""
+#endif
+
+namespace sipplab {
+
+/// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
+bool run_property(const std::string& room, const std::string& title, const rc::detail::Property& property);
+
+/// Checks a property with the parameters of RC_PARAMS and prints how it went: cases,
+/// the share of each class, and for a failure the smallest counterexample with the
+/// RC_PARAMS that lead to it. True when it held.
+///
+/// Where the environment variable SIPPLAB_PROPERTY_LOG names a file, one line is
+/// appended to it; property_log.hpp says what is in it.
+///
+/// With "reproduce=..." in RC_PARAMS, only the counterexamples that it holds are tried:
+/// nothing is drawn or logged, and properties that it does not name hold.
+template <class Testable>
+bool property(const std::string& title, Testable&& testable) {
+  return run_property(SIPPLAB_PROPERTY_ROOM, title, rc::detail::toProperty(std::forward<Testable>(testable)));
+}
+
+/// Says which case this property plans, where that is not the case that it drew: the
+/// log then holds this one.
+void note_case(const PlanCase& plan_case);
+
+}  // namespace sipplab

@@ -1,0 +1,84 @@
+// The log of property runs; see property_log.hpp.
+#include "property_tests/support/property_log.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace sipplab {
+
+std::string utc_text(std::chrono::system_clock::time_point time) {
+  using std::chrono::milliseconds;
+  const auto since_epoch = std::chrono::duration_cast<milliseconds>(time.time_since_epoch());
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm utc = {};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 32> date = {};
+  std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::array<char, 16> fraction = {};
+  std::snprintf(fraction.data(), fraction.size(), ".%03dZ", static_cast<int>(since_epoch.count() % 1000));
+  return std::string(date.data()) + fraction.data();
+}
+
+std::string new_property_uuid() {
+  constexpr const char* kPattern = "xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx";
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::random_device random;
+  std::string uuid = kPattern;
+  for (char& c : uuid) {
+    if (c == 'x') c = kDigits[random() % 16];
+    if (c == 'y') c = kDigits[8 + random() % 4];  // the variant of RFC 4122
+  }
+  return uuid;
+}
+
+std::string to_json_line(const PropertyRecord& record) {
+  nlohmann::ordered_json json;
+  json["uuid"] = record.uuid;
+  json["started_utc"] = record.started_utc;
+  json["room"] = record.room;
+  json["title"] = record.title;
+  json["seed"] = record.seed;
+  json["max_success"] = record.max_success;
+  json["status"] = record.status;
+  json["cases"] = record.cases;
+  json["discards"] = record.discards;
+  json["shrinks"] = record.shrinks;
+  json["shrink_tries"] = record.shrink_tries;
+  json["wall_time_ns"] = record.wall_time_ns;
+  json["classes"] = record.classes;
+  json["message"] = record.message;
+  json["reproduce"] = record.reproduce;
+  json["counterexample"] = record.counterexample;
+  json["plan_case"] = record.plan_case;
+  if (record.case_robots) json["case_robots"] = *record.case_robots;
+  if (record.case_cells) json["case_cells"] = *record.case_cells;
+  // What a property prints may be any bytes.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> append_to_log(const std::string& path, const PropertyRecord& record) {
+  return append_to_log(path, to_json_line(record));
+}
+
+std::optional<std::string> append_to_log(const std::string& path, const std::string& line) {
+  const auto failed = [&path] { return path + ": cannot append to the log: " + std::strerror(errno); };
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (file < 0) return failed();
+  // One write: lines of programs that run at once do not mix.
+  errno = ENOSPC;  // what a short write means
+  const bool written = ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  std::optional<std::string> error;
+  if (!written) error = failed();
+  ::close(file);
+  return error;
+}
+
+}  // namespace sipplab
