@@ -63,6 +63,10 @@ for format in xml json csv; do
 done
 says '</svg>' plan.svg
 says '"ssi": 2.5' plan.json
+expect 0 validate --instance warehouse/0.xml --solution plan.json --certify
+says '^certified: 120 pairs safe, 0 in collision, 0 undecided'
+expect 1 validate --instance warehouse/1.xml --solution plan.json --certify --json
+says '"certified"'
 expect 0 validate --instance warehouse/0.xml --solution plan.json --ssi 2.5 --json
 says '"valid": true'
 says '"ssi_checked": "2.5"'

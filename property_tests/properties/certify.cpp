@@ -210,8 +210,8 @@ int main() {
   passed &= property("enclosures (1)(2): hold what operations on their members give", [] {
     const Member a = *any_member();
     const Member b = *any_member();
-    const long double x = a.number;
-    const long double y = b.number;
+    const auto x = static_cast<long double>(a.number);
+    const auto y = static_cast<long double>(b.number);
     RC_ASSERT(holds(a.interval + b.interval, x + y));
     RC_ASSERT(holds(a.interval - b.interval, x - y));
     RC_ASSERT(holds(a.interval * b.interval, x * y));
