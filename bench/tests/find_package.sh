@@ -4,10 +4,11 @@
 #
 #   find_package.sh BUILD_FOLDER CXX_COMPILER
 set -euo pipefail
+build=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cmake --install "$1" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 
 mkdir "$work/user"
 cat >"$work/user/CMakeLists.txt" <<'CMAKE'
@@ -36,8 +37,10 @@ int main() {
   return 0;
 }
 CPP
-flags=$(sed -n 's/^SIPPLAB_SANITIZE:[A-Z]*=//p' "$1/CMakeCache.txt")
-cmake -S "$work/user" -B "$work/build" -DCMAKE_CXX_COMPILER="$2" -DCMAKE_PREFIX_PATH="$work/prefix" \
+cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+flags=$(cached SIPPLAB_SANITIZE)
+# The same build tool: a fresh machine has no other.
+cmake -S "$work/user" -B "$work/build" -G "$(cached CMAKE_GENERATOR)" -DCMAKE_CXX_COMPILER="$2" -DCMAKE_PREFIX_PATH="$work/prefix" \
   ${flags:+-DCMAKE_CXX_FLAGS=-fsanitize=$flags} >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$work/build/user"

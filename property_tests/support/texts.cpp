@@ -53,7 +53,8 @@ void replace_word(std::string& text, Random& random) {
 }
 
 void replace_byte(std::string& text, Random& random) {
-  static const std::string kBytes("\0\n\"<&>,;0-9e.\xff\xc3{}[]@T ", 25);
+  using namespace std::string_literals;
+  static const std::string kBytes = "\0\n\"<&>,;0-9e.\xff\xc3{}[]@T "s;
   text[draw_below(random, text.size())] = kBytes[draw_below(random, kBytes.size())];
 }
 
