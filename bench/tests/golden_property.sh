@@ -90,8 +90,8 @@ expect 1 ./sipplab property replay "$number" --db history.db
 says 'property  still fails'
 
 # The command that it prints does what it says.
-./sipplab property replay "$number" --db history.db 2>/dev/null | sed -n 's/^command *//p' >command
-expect 1 bash command
+./sipplab property replay "$number" --db history.db 2>/dev/null | sed -n 's/^command *//p' >replay_command
+expect 1 bash replay_command
 says 'still fails' err
 
 # Mended: the same property holds by now.
