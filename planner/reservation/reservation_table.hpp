@@ -57,6 +57,8 @@ class ReservationTable {
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s);
 
   /// The same by looking at every disk: the plain twin, for tests and benchmarks.
+  /// Where two disks free the mover at the same instant, which of them is seen first may
+  /// move the answer by up to the contact slack; both answers are safe.
   double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
   /// Disks looked at closely by earliest_departure since construction: a count of work.
