@@ -1,0 +1,222 @@
+// sipplab findings: what fuzzing found, and whether it still breaks.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/fuzz/campaign.hpp"
+#include "bench/fuzz/target_program.hpp"
+#include "db/findings.hpp"
+#include "db/identity.hpp"
+#include "planner/io/text_file.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct FindingsArguments {
+  HistoryFlags history;
+  std::string program;  ///< how sipplab was called: replay programs lie below its folder
+
+  bool open = false;
+  bool all = false;
+  std::optional<std::int64_t> id;
+  std::optional<std::string> programs;
+  std::optional<std::string> output;
+  std::optional<std::string> svg;
+};
+
+db::Table table_of(const std::vector<db::StoredFinding>& findings) {
+  db::Table table{
+      {"id", "state", "target", "kind", "claim", "robots", "cells", "bytes", "times_found", "last_utc"}, {}};
+  const auto optional = [](std::optional<std::int64_t> number) {
+    return number ? db::Value{*number} : db::Value{db::Null{}};
+  };
+  for (const db::StoredFinding& stored : findings) {
+    const db::Finding& finding = stored.finding;
+    table.rows.push_back({stored.id, stored.state, finding.target, finding.kind, finding.claim,
+                          optional(finding.robots), optional(finding.cells),
+                          static_cast<std::int64_t>(finding.minimal.size()), stored.times_found,
+                          stored.last_utc});
+  }
+  return table;
+}
+
+int run_list(const FindingsArguments& arguments) {
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto findings = db::list_findings(*database, arguments.open);
+  if (!findings) return fail(findings.error());
+  print(db::format(table_of(*findings), arguments.history.output_format()));
+  return kSuccess;
+}
+
+Json json_of(const db::StoredFinding& stored, const db::Table& events) {
+  const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
+  Json json;
+  json["id"] = stored.id;
+  json["state"] = stored.state;
+  json["target"] = stored.finding.target;
+  json["kind"] = stored.finding.kind;
+  json["claim"] = stored.finding.claim;
+  json["frames"] = stored.finding.frames;
+  json["message"] = stored.finding.message;
+  json["first_utc"] = stored.first_utc;
+  json["last_utc"] = stored.last_utc;
+  json["first_commit"] = or_null(stored.first_commit);
+  json["last_commit"] = or_null(stored.last_commit);
+  json["fixed_commit"] = or_null(stored.fixed_commit);
+  json["times_found"] = stored.times_found;
+  json["minimal"] = stored.finding.minimal;
+  json["events"] = Json::parse(db::format_json(events));
+  return json;
+}
+
+std::string text_of(const db::StoredFinding& stored, const db::Table& events) {
+  const db::Finding& finding = stored.finding;
+  std::string text = fmt::format("finding   {}, {}, found {} times\ntarget    {}\nwhat      {}\n", stored.id,
+                                 stored.state, stored.times_found, finding.target, finding.message);
+  if (!finding.frames.empty()) text += fmt::format("where     {}\n", finding.frames);
+  if (stored.fixed_commit) text += fmt::format("fixed by  {}\n", *stored.fixed_commit);
+  text += "\n" + db::format_aligned(events) + "\n";
+  text += fmt::format("{} bytes, of {} as it was found:\n\n{}", finding.minimal.size(), finding.input.size(),
+                      finding.minimal);
+  return text.back() == '\n' ? text : text + '\n';
+}
+
+/// An error is one line.
+std::optional<std::string> write_files(const FindingsArguments& arguments, const db::Finding& finding) {
+  if (arguments.output) {
+    if (const auto error = write_file(*arguments.output, finding.minimal)) return error->message();
+  }
+  if (!arguments.svg) return std::nullopt;
+  const auto picture = bench::draw_finding(finding);
+  if (!picture) return std::string("this finding is no planning case, expected one to draw");
+  if (const auto error = write_file(*arguments.svg, *picture)) return error->message();
+  return std::nullopt;
+}
+
+int run_show(const FindingsArguments& arguments) {
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto stored = db::find_finding(*database, *arguments.id);
+  if (!stored) return fail(stored.error());
+  const auto events = db::finding_events(*database, *arguments.id);
+  if (!events) return fail(events.error());
+  if (const auto problem = write_files(arguments, stored->finding)) return fail(kBadUsage, *problem);
+  constexpr auto kReplace = Json::error_handler_t::replace;  // an input need not be UTF-8
+  print(arguments.history.output_format() == db::OutputFormat::kJson
+            ? json_of(*stored, *events).dump(2, ' ', false, kReplace) + "\n"
+            : text_of(*stored, *events));
+  return kSuccess;
+}
+
+/// Replay programs: below the folder of sipplab in the same build, unless said otherwise.
+fs::path programs_of(const FindingsArguments& arguments) {
+  if (arguments.programs) return *arguments.programs;
+  return fs::path(arguments.program).parent_path() / "fuzz";
+}
+
+struct Replayed {
+  db::StoredFinding stored;
+  std::string verdict;
+};
+
+db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding& stored,
+                                const fs::path& programs, const fs::path& scratch) {
+  const bench::TargetProgram program(programs, stored.finding.target, scratch);
+  const bench::InputVerdict verdict = program.judge(stored.finding.minimal);
+  if (verdict.verdict == bench::Verdict::kNotJudged)
+    return Replayed{stored, "not run: its program is not there"};
+  const bool breaks = verdict.verdict == bench::Verdict::kBreaks;
+  const auto recorded = db::record_replay(database, bench::fuzz_origin(), stored.id, breaks, db::utc_now());
+  if (!recorded) return Unexpected{recorded.error()};
+  if (!breaks) return Replayed{*recorded, "holds by now"};
+  if (verdict.signature() == stored.finding.signature()) return Replayed{*recorded, "still breaks"};
+  return Replayed{*recorded, "breaks otherwise: " + verdict.message};
+}
+
+int run_replay(const FindingsArguments& arguments) {
+  auto database = db::Database::open(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  std::vector<db::StoredFinding> findings;
+  if (arguments.id) {
+    const auto stored = db::find_finding(*database, *arguments.id);
+    if (!stored) return fail(stored.error());
+    findings.push_back(*stored);
+  } else {
+    const auto all = db::list_findings(*database, false);
+    if (!all) return fail(all.error());
+    findings = *all;
+  }
+  std::string scratch = (fs::temp_directory_path() / "sipplab-XXXXXX").string();
+  if (mkdtemp(scratch.data()) == nullptr) return fail(kBadUsage, scratch + ": cannot be made");
+  db::Table table{{"id", "state", "target", "replay"}, {}};
+  int code = kSuccess;
+  for (const db::StoredFinding& stored : findings) {
+    const auto replayed = replay_one(*database, stored, programs_of(arguments), scratch);
+    if (!replayed) return fail(replayed.error());
+    table.rows.push_back({stored.id, replayed->stored.state, stored.finding.target, replayed->verdict});
+    if (replayed->verdict.rfind("not run", 0) == 0) {
+      if (code == kSuccess) code = kInconclusive;
+    } else if (replayed->stored.state != "fixed") {
+      code = kNegativeVerdict;
+    }
+  }
+  std::error_code ignored;
+  fs::remove_all(scratch, ignored);
+  print(db::format(table, arguments.history.output_format()));
+  return code;
+}
+
+CLI::App* add_subcommand(CLI::App& findings, const std::string& name, const std::string& description,
+                         FindingsArguments& arguments) {
+  CLI::App* command = findings.add_subcommand(name, description);
+  arguments.history.add_to(*command);
+  return command;
+}
+
+}  // namespace
+
+Command add_findings_command(CLI::App& program, const Invocation& invocation) {
+  auto arguments = std::make_shared<FindingsArguments>();
+  arguments->program = invocation.program;
+  CLI::App* findings = program.add_subcommand("findings", "what fuzzing found, and whether it still breaks");
+  findings->require_subcommand(1);
+  CLI::App* list = add_subcommand(*findings, "list", "all findings", *arguments);
+  list->add_flag("--open", arguments->open, "only those that are not fixed");
+  CLI::App* show = add_subcommand(*findings, "show", "one finding, with its smallest input", *arguments);
+  show->add_option("id", arguments->id, "as `sipplab findings list` shows it")->required();
+  show->add_option("-o,--output", arguments->output, "write the smallest input there")->type_name("FILE");
+  show->add_option("--svg", arguments->svg, "draw the planning case and its plan there")->type_name("FILE");
+  CLI::App* replay = add_subcommand(*findings, "replay",
+                                    "run the smallest inputs again; exit code 1 where one still breaks, 0 "
+                                    "where all hold, 3 where one was not run",
+                                    *arguments);
+  CLI::Option* id = replay->add_option("id", arguments->id, "as `sipplab findings list` shows it");
+  CLI::Option* all =
+      replay->add_flag("--all", arguments->all, "every finding, in place of an id")->excludes(id);
+  replay
+      ->add_option("--programs", arguments->programs,
+                   "folder of the replay programs; default: that of this build")
+      ->type_name("DIR");
+
+  return {findings, [=] {
+            if (list->parsed()) return run_list(*arguments);
+            if (show->parsed()) return run_show(*arguments);
+            if (id->empty() && all->empty())
+              return fail(kBadUsage, "sipplab findings replay: expected an id or --all");
+            return run_replay(*arguments);
+          }};
+}
+
+}  // namespace sipplab::cli

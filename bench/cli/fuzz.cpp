@@ -1,0 +1,203 @@
+// sipplab fuzz: runs the fuzz targets, and what the history knows about their runs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/fuzz/campaign.hpp"
+#include "bench/fuzz/coverage.hpp"
+#include "bench/fuzz/hardest.hpp"
+#include "bench/sweep/run_info.hpp"
+#include "db/fuzz_runs.hpp"
+#include "planner/io/text_file.hpp"
+#include "property_tests/support/case_codec.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FuzzArguments {
+  HistoryFlags history;
+  bench::CampaignOptions campaign;
+  std::string programs = "build/fuzz/fuzz";
+  std::string sources = "fuzz";
+  std::string work = "build/fuzz/work";
+
+  // list
+  std::optional<std::string> target;
+  std::size_t limit = 20;
+
+  // coverage
+  std::string summary;
+
+  // hardest
+  std::vector<std::string> folders;
+  std::size_t keep = 12;
+  std::optional<std::string> output;
+};
+
+std::optional<std::string> problem_of(const bench::CampaignOptions& campaign) {
+  const auto targets = bench::targets_of(campaign);
+  if (targets.empty()) {
+    return fmt::format("{}: no fuzz target there, expected programs built with the preset fuzz",
+                       campaign.programs.string());
+  }
+  for (const std::string& wanted : campaign.targets) {
+    if (std::find(targets.begin(), targets.end(), wanted) == targets.end()) {
+      return fmt::format("no target '{}', expected one of: {}", wanted, fmt::join(targets, ", "));
+    }
+  }
+  if (!campaign.seconds && !campaign.executions) return "no budget, expected --seconds or --executions";
+  return std::nullopt;
+}
+
+int run_campaign(FuzzArguments& arguments) {
+  bench::CampaignOptions& campaign = arguments.campaign;
+  campaign.programs = fs::absolute(arguments.programs);
+  campaign.sources = fs::absolute(arguments.sources);
+  campaign.work = fs::absolute(arguments.work);
+  if (const auto problem = problem_of(campaign)) return fail(kBadUsage, "sipplab fuzz: " + *problem);
+  auto database = db::Database::open(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto result = bench::run_campaign(*database, bench::fuzz_origin(), campaign, diagnose);
+  if (!result) return fail(result.error());
+  for (const std::string& skipped : result->skipped) {
+    diagnose(skipped + ": skipped, this very program was fuzzed before and nothing was found");
+  }
+  db::FuzzRunFilter filter;
+  filter.campaign = result->campaign;
+  const auto table = db::list_fuzz_runs(*database, filter);
+  if (!table) return fail(table.error());
+  print(db::format(*table, arguments.history.output_format()));
+  if (!result->findings.empty()) return kNegativeVerdict;
+  return result->broken ? kInconclusive : kSuccess;
+}
+
+int run_list(const FuzzArguments& arguments) {
+  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  db::FuzzRunFilter filter;
+  filter.target = arguments.target;
+  filter.limit = arguments.limit;
+  const auto table = db::list_fuzz_runs(*database, filter);
+  if (!table) return fail(table.error());
+  print(db::format(*table, arguments.history.output_format()));
+  return kSuccess;
+}
+
+int run_coverage(const FuzzArguments& arguments) {
+  const auto text = read_file(arguments.summary);
+  if (!text) return fail(kBadUsage, text.error().message());
+  const auto files = bench::parse_coverage(*text, arguments.summary);
+  if (!files) return fail(kBadUsage, files.error());
+  auto database = db::Database::open(db::database_path(arguments.history.database));
+  if (!database) return fail(database.error());
+  const auto campaign = db::latest_fuzz_campaign(*database);
+  if (!campaign) return fail(campaign.error());
+  if (const auto done = db::record_fuzz_coverage(*database, *campaign, *files); !done)
+    return fail(done.error());
+  const auto table = db::list_fuzz_coverage(*database, *campaign);
+  if (!table) return fail(table.error());
+  print(db::format(*table, arguments.history.output_format()));
+  return kSuccess;
+}
+
+int run_hardest(const FuzzArguments& arguments) {
+  const auto cases = bench::distinct_cases(bench::hardest_cases(arguments.folders), arguments.keep);
+  if (cases.empty())
+    return fail(kBadUsage, "sipplab fuzz: no case with robots in these folders, expected one");
+  db::Table table{
+      {"file", "robots", "cells", "reschedule", "status", "tries", "expansions", "expansions_per_robot"}, {}};
+  for (const bench::HardCase& hard : cases) {
+    const auto count = [](auto number) { return db::Value{static_cast<std::int64_t>(number)}; };
+    table.rows.push_back({hard.file.filename().string(), count(hard.plan_case.instance.agents.size()),
+                          count(hard.plan_case.instance.map.cell_count()),
+                          std::string(name(hard.plan_case.options.rescheduling)),
+                          std::string(name(hard.status)), count(hard.tries), count(hard.expansions),
+                          hard.expansions_per_robot()});
+    if (!arguments.output) continue;
+    std::error_code ignored;
+    fs::create_directories(*arguments.output, ignored);
+    const fs::path file = fs::path(*arguments.output) / fmt::format("{:02}.case", table.rows.size());
+    if (const auto error = write_file(file.string(), encode_case(hard.plan_case))) {
+      return fail(kBadUsage, error->message());
+    }
+  }
+  print(db::format(table, arguments.history.output_format()));
+  return kSuccess;
+}
+
+CLI::App* add_subcommand(CLI::App& fuzz, const std::string& name, const std::string& description,
+                         FuzzArguments& arguments) {
+  CLI::App* command = fuzz.add_subcommand(name, description);
+  arguments.history.add_to(*command);
+  return command;
+}
+
+CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
+  CLI::App* run = add_subcommand(
+      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 where a target did not run", arguments);
+  bench::CampaignOptions& campaign = arguments.campaign;
+  run->add_option("--programs", arguments.programs, "folder of the targets' programs")->capture_default_str();
+  run->add_option("--sources", arguments.sources, "folder with corpus/, regressions/ and dictionaries/")
+      ->capture_default_str();
+  run->add_option("--work", arguments.work, "folder where corpora grow, with logs and pictures of findings")
+      ->capture_default_str();
+  run->add_option("--mode", campaign.mode,
+                  "smoke: the same inputs each time; for; nightly: several processes")
+      ->check(CLI::IsMember({"smoke", "for", "nightly"}))
+      ->capture_default_str();
+  run->add_option("--target", campaign.targets, "only these targets");
+  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets")->check(CLI::PositiveNumber);
+  run->add_option("--executions", campaign.executions, "budget of each target")->check(CLI::PositiveNumber);
+  run->add_option("--seed", campaign.seed, "of the engine")
+      ->check(CLI::Range(1U, 4294967295U))
+      ->capture_default_str();
+  run->add_option("--workers", campaign.workers, "processes of a nightly run")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_flag("--skip-known", campaign.skip_known,
+                "leave out programs that were fuzzed before without findings");
+  return run;
+}
+
+}  // namespace
+
+Command add_fuzz_command(CLI::App& program) {
+  auto arguments = std::make_shared<FuzzArguments>();
+  CLI::App* fuzz = program.add_subcommand("fuzz", "run the fuzz targets, and what they did");
+  fuzz->require_subcommand(1);
+  CLI::App* run = add_run(*fuzz, *arguments);
+  CLI::App* list = add_subcommand(*fuzz, "list", "runs of targets, newest first", *arguments);
+  list->add_option("--target", arguments->target, "only this target");
+  list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
+  CLI::App* coverage =
+      add_subcommand(*fuzz, "coverage",
+                     "take the coverage of the newest campaign into the history, and print it", *arguments);
+  coverage->add_option("summary", arguments->summary, "what llvm-cov export -summary-only printed")
+      ->required();
+  CLI::App* hardest = add_subcommand(
+      *fuzz, "hardest", "the cases of some folders that need most expansions per robot", *arguments);
+  hardest->add_option("folder", arguments->folders, "folders of cases")->required();
+  hardest->add_option("--keep", arguments->keep, "this many, of different kinds")->capture_default_str();
+  hardest->add_option("-o,--output", arguments->output, "write them there as 01.case, 02.case, ...")
+      ->type_name("DIR");
+
+  return {fuzz, [=] {
+            if (run->parsed()) return run_campaign(*arguments);
+            if (list->parsed()) return run_list(*arguments);
+            if (coverage->parsed()) return run_coverage(*arguments);
+            return run_hardest(*arguments);
+          }};
+}
+
+}  // namespace sipplab::cli

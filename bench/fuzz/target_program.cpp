@@ -1,0 +1,130 @@
+#include "bench/fuzz/target_program.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "bench/fuzz/program.hpp"
+#include "bench/property/replay.hpp"
+#include "planner/io/svg.hpp"
+#include "planner/io/text_file.hpp"
+#include "property_tests/support/case_codec.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Seconds. Judging waits ten seconds for an input that hangs; names of functions take some.
+constexpr double kJudgeLimitS = 60;
+/// Thousands of judgements at a few milliseconds, or some that hang.
+constexpr double kReduceLimitS = 300;
+constexpr unsigned kDrawLimitS = 10;
+
+std::string text_of(const fs::path& path) {
+  const auto text = read_file(path.string());
+  return text ? *text : std::string();
+}
+
+/// Runs `draw` in a child; what it returns comes back through a file.
+template <class Draw>
+std::optional<std::string> drawn_in_child(const Draw& draw) {
+  int ends[2];
+  if (pipe(ends) != 0) return std::nullopt;
+  const pid_t child = fork();
+  if (child < 0) return std::nullopt;
+  if (child == 0) {
+    alarm(kDrawLimitS);
+    std::string_view rest;
+    const std::string picture = draw();
+    for (rest = picture; !rest.empty();) {
+      const ssize_t written = write(ends[1], rest.data(), rest.size());
+      if (written <= 0) _exit(1);
+      rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string picture;
+  char buffer[4096];
+  for (ssize_t got = 0; (got = read(ends[0], buffer, sizeof buffer)) > 0;) {
+    picture.append(buffer, static_cast<std::size_t>(got));
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  return picture;
+}
+
+}  // namespace
+
+TargetProgram::TargetProgram(fs::path programs, std::string target, fs::path scratch)
+    : programs_(std::move(programs)), target_(std::move(target)), scratch_(std::move(scratch)) {}
+
+InputVerdict TargetProgram::judge(const std::string& input) const {
+  const fs::path file = scratch_ / "judged";
+  if (write_file(file.string(), input)) return {};
+  const ProgramRun run =
+      run_program({replayer().string(), "--judge", file.string()}, {}, scratch_ / "judge.log", kJudgeLimitS);
+  InputVerdict verdict;
+  if (!run.started || run.timed_out) return verdict;
+  if (run.exit_code == 0) verdict.verdict = Verdict::kHolds;
+  if (run.exit_code != 1) return verdict;
+  verdict.verdict = Verdict::kBreaks;
+  std::istringstream lines(run.output);
+  for (std::string* value : {&verdict.kind, &verdict.claim, &verdict.frames, &verdict.message}) {
+    std::getline(lines, *value);
+  }
+  return verdict;
+}
+
+std::string TargetProgram::reduce(const std::string& input) const {
+  const fs::path file = scratch_ / "input";
+  const fs::path smaller = scratch_ / "smaller";
+  std::error_code ignored;
+  fs::remove(smaller, ignored);
+  if (write_file(file.string(), input)) return input;
+  const ProgramRun run = run_program({replayer().string(), "--reduce", file.string(), smaller.string()}, {},
+                                     scratch_ / "reduce.log", kReduceLimitS);
+  return run.started && run.exit_code == 0 ? text_of(smaller) : input;
+}
+
+db::Finding finding_of(const TargetProgram& program, const std::string& target, const InputVerdict& verdict,
+                       const std::string& input) {
+  db::Finding finding;
+  finding.target = target;
+  finding.kind = verdict.kind;
+  finding.claim = verdict.claim;
+  finding.frames = verdict.frames;
+  finding.message = verdict.message;
+  finding.input = input;
+  finding.minimal = program.reduce(input);
+  // Reducing goes by addresses; what counts is what the smallest one is judged to be.
+  if (program.judge(finding.minimal).signature() != finding.signature()) finding.minimal = input;
+  if (const auto plan_case = decode_case(finding.minimal)) {
+    finding.robots = static_cast<std::int64_t>(plan_case->instance.agents.size());
+    finding.cells = static_cast<std::int64_t>(plan_case->instance.map.cell_count());
+  }
+  return finding;
+}
+
+std::optional<std::string> draw_finding(const db::Finding& finding) {
+  const auto plan_case = decode_case(finding.minimal);
+  if (!plan_case || find_error(plan_case->instance)) return std::nullopt;
+  SvgOptions options;
+  options.title = finding.target;
+  options.subtitle = finding.message;
+  auto picture = drawn_in_child([&] {
+    const CaseVerdict verdict = replay_case(
+        *plan_case, [](const Instance& instance, const PlannerOptions& how) { return plan(instance, how); });
+    return draw_svg(plan_case->instance, verdict.result.solution, verdict.report, options);
+  });
+  if (picture) return picture;
+  return drawn_in_child([&] { return draw_svg(plan_case->instance, {}, {}, options); });
+}
+
+}  // namespace sipplab::bench

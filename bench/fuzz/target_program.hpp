@@ -1,0 +1,52 @@
+// One fuzz target as programs: the fuzzer, and the one that replays, judges and reduces.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "db/findings.hpp"
+
+namespace sipplab::bench {
+
+enum class Verdict {
+  kHolds,
+  kBreaks,
+  kNotJudged,  ///< the program is not there, or did not answer
+};
+
+struct InputVerdict {
+  Verdict verdict = Verdict::kNotJudged;
+  std::string kind, claim, frames, message;  ///< of what breaks
+
+  std::string signature() const { return kind + " | " + claim + " | " + frames; }
+};
+
+/// Below a folder such as build/fuzz/fuzz.
+class TargetProgram {
+ public:
+  /// `scratch`: a folder for files that nobody needs afterwards.
+  TargetProgram(std::filesystem::path programs, std::string target, std::filesystem::path scratch);
+
+  std::filesystem::path fuzzer() const { return programs_ / target_; }
+  std::filesystem::path replayer() const { return programs_ / ("replay_" + target_); }
+
+  InputVerdict judge(const std::string& input) const;
+  /// The smallest input that breaks the same; the input itself where that is not found.
+  std::string reduce(const std::string& input) const;
+
+ private:
+  std::filesystem::path programs_;
+  std::string target_;
+  std::filesystem::path scratch_;
+};
+
+/// The finding of an input that breaks: what it breaks, and the smallest input that does.
+db::Finding finding_of(const TargetProgram& program, const std::string& target, const InputVerdict& verdict,
+                       const std::string& input);
+
+/// The picture of a finding that is a planning case, with its plan where planning it ends
+/// well; nothing for other inputs. Drawn in a child: the case is one that breaks things.
+std::optional<std::string> draw_finding(const db::Finding& finding);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,213 @@
+#include "db/findings.hpp"
+
+#include <fmt/core.h>
+
+#include "db/fuzz_keys.hpp"
+#include "db/sqlite/statement.hpp"
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using sqlite::Statement;
+
+constexpr const char* kWriting = "writing a finding";
+constexpr const char* kReading = "reading findings";
+constexpr const char* kColumns =
+    "id, target, kind, claim, frames, message, (SELECT input FROM finding WHERE finding.id = v_findings.id), "
+    "minimal, robots, cells, state, first_utc, last_utc, first_commit, last_commit, fixed_commit, "
+    "times_found";
+
+std::optional<std::int64_t> optional_integer(const Statement& row, int column) {
+  if (row.is_null(column)) return std::nullopt;
+  return row.integer(column);
+}
+
+StoredFinding read_finding(const Statement& row) {
+  StoredFinding stored;
+  int column = 0;
+  stored.id = row.integer(column++);
+  Finding& finding = stored.finding;
+  finding.target = row.text(column++);
+  finding.kind = row.text(column++);
+  finding.claim = row.text(column++);
+  finding.frames = row.text(column++);
+  finding.message = row.text(column++);
+  finding.input = row.text(column++);
+  finding.minimal = row.text(column++);
+  finding.robots = optional_integer(row, column++);
+  finding.cells = optional_integer(row, column++);
+  stored.state = row.text(column++);
+  stored.first_utc = row.text(column++);
+  stored.last_utc = row.text(column++);
+  stored.first_commit = row.optional_text(column++);
+  stored.last_commit = row.optional_text(column++);
+  stored.fixed_commit = row.optional_text(column++);
+  stored.times_found = row.integer(column);
+  return stored;
+}
+
+/// What a sighting makes of a state, and the event that it is.
+std::string state_after(const std::string& state, bool breaks) {
+  if (!breaks) return "fixed";
+  return state == "fixed" || state == "regressed" ? "regressed" : "reproduced";
+}
+
+Result<Done> add_event(sqlite::Connection& connection, std::int64_t id, const std::string& event,
+                       const std::string& now_utc, std::optional<std::int64_t> commit,
+                       std::optional<std::int64_t> fuzz_run) {
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT OR IGNORE INTO finding_event (finding_id, happened_utc, event, commit_id, fuzz_run_id) "
+      "VALUES (?, ?, ?, ?, ?)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  return insert->bind(id, now_utc, event, commit, fuzz_run).run();
+}
+
+Result<Done> insert_finding(sqlite::Connection& connection, const Finding& finding,
+                            std::optional<std::int64_t> commit, const std::string& now_utc) {
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT INTO finding (target, signature, kind, claim, frames, message, state, first_utc, last_utc, "
+      "first_commit_id, last_commit_id, times_found, input, minimal, robots, cells) VALUES "
+      "(?1, ?2, ?3, ?4, ?5, ?6, 'new', ?7, ?7, ?8, ?8, 1, CAST(?9 AS BLOB), CAST(?10 AS BLOB), ?11, ?12)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  return insert
+      ->bind(finding.target, finding.signature(), finding.kind, finding.claim, finding.frames,
+             finding.message, now_utc, commit, finding.input, finding.minimal, finding.robots, finding.cells)
+      .run();
+}
+
+/// Moves a finding that is there on to its next state.
+Result<Done> note_sighting(sqlite::Connection& connection, const StoredFinding& stored, bool breaks,
+                           bool found, std::optional<std::int64_t> commit,
+                           std::optional<std::int64_t> fuzz_run, const std::string& now_utc) {
+  const std::string state = state_after(stored.state, breaks);
+  auto update = Statement::prepare(connection,
+                                   "UPDATE finding SET state = ?2, times_found = times_found + ?3, "
+                                   "last_utc = CASE WHEN ?4 THEN ?5 ELSE last_utc END, "
+                                   "last_commit_id = CASE WHEN ?4 THEN ?6 ELSE last_commit_id END, "
+                                   "fixed_commit_id = CASE WHEN ?4 THEN NULL WHEN state = 'fixed' THEN "
+                                   "fixed_commit_id ELSE ?6 END WHERE id = ?1",
+                                   kWriting);
+  if (!update) return Unexpected{update.error()};
+  if (auto done = update->bind(stored.id, state, found ? 1 : 0, breaks, now_utc, commit).run(); !done)
+    return done;
+  // That it still holds is no news; that it still breaks shows in its last time and commit.
+  if (state == stored.state) return Done{};
+  return add_event(connection, stored.id, state, now_utc, commit, fuzz_run);
+}
+
+Result<std::optional<StoredFinding>> find_by_signature(sqlite::Connection& connection,
+                                                       const Finding& finding) {
+  auto select = Statement::prepare(
+      connection, fmt::format("SELECT {} FROM v_findings WHERE target = ? AND signature = ?", kColumns),
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  const auto row = select->bind(finding.target, finding.signature()).step();
+  if (!row) return Unexpected{row.error()};
+  if (!row.value()) return std::optional<StoredFinding>();
+  return std::optional<StoredFinding>(read_finding(*select));
+}
+
+Result<Done> keep_smaller(sqlite::Connection& connection, const StoredFinding& stored,
+                          const Finding& finding) {
+  if (finding.minimal.size() >= stored.finding.minimal.size()) return Done{};
+  auto update = Statement::prepare(
+      connection, "UPDATE finding SET minimal = CAST(?2 AS BLOB), robots = ?3, cells = ?4 WHERE id = ?1",
+      kWriting);
+  if (!update) return Unexpected{update.error()};
+  return update->bind(stored.id, finding.minimal, finding.robots, finding.cells).run();
+}
+
+}  // namespace
+
+Result<StoredFinding> record_finding(Database& database, const FuzzOrigin& origin, const Finding& finding,
+                                     std::optional<std::int64_t> fuzz_run, const std::string& now_utc) {
+  auto& connection = database.connection();
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  const auto keys = fuzz_keys(connection, origin);
+  if (!keys) return Unexpected{keys.error()};
+  const auto known = find_by_signature(connection, finding);
+  if (!known) return Unexpected{known.error()};
+  std::int64_t id = 0;
+  if (known->has_value()) {
+    id = (*known)->id;
+    auto done = note_sighting(connection, **known, true, true, keys->commit, fuzz_run, now_utc);
+    if (done) done = keep_smaller(connection, **known, finding);
+    if (!done) return Unexpected{done.error()};
+  } else {
+    auto done = insert_finding(connection, finding, keys->commit, now_utc);
+    id = connection.last_insert_rowid();
+    if (done) done = add_event(connection, id, "found", now_utc, keys->commit, fuzz_run);
+    if (!done) return Unexpected{done.error()};
+  }
+  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  return find_finding(database, id);
+}
+
+Result<StoredFinding> record_replay(Database& database, const FuzzOrigin& origin, std::int64_t id,
+                                    bool breaks, const std::string& now_utc) {
+  auto& connection = database.connection();
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  const auto keys = fuzz_keys(connection, origin);
+  if (!keys) return Unexpected{keys.error()};
+  const auto stored = find_finding(database, id);
+  if (!stored) return stored;
+  auto done = note_sighting(connection, *stored, breaks, false, keys->commit, std::nullopt, now_utc);
+  if (done) done = transaction->commit();
+  if (!done) return Unexpected{done.error()};
+  return find_finding(database, id);
+}
+
+Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_only) {
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT {} FROM v_findings WHERE NOT ? OR state <> 'fixed' ORDER BY id", kColumns),
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(open_only);
+  std::vector<StoredFinding> findings;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return findings;
+    findings.push_back(read_finding(*select));
+  }
+}
+
+Result<StoredFinding> find_finding(Database& database, std::int64_t id) {
+  auto select = Statement::prepare(database.connection(),
+                                   fmt::format("SELECT {} FROM v_findings WHERE id = ?", kColumns), kReading);
+  if (!select) return Unexpected{select.error()};
+  const auto row = select->bind(id).step();
+  if (!row) return Unexpected{row.error()};
+  if (row.value()) return read_finding(*select);
+  return Unexpected{
+      Error{ErrorKind::kNotFound, fmt::format("{}: no finding {}, expected one that `sipplab findings` shows",
+                                              database.path().string(), id)}};
+}
+
+Result<Table> finding_events(Database& database, std::int64_t id) {
+  auto select = Statement::prepare(database.connection(),
+                                   "SELECT event, happened_utc, commit_.hash FROM finding_event LEFT JOIN "
+                                   "commit_ ON commit_.id = commit_id "
+                                   "WHERE finding_id = ? ORDER BY happened_utc",
+                                   kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(id);
+  Table table{{"event", "happened_utc", "commit_hash"}, {}};
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return table;
+    const auto hash = select->optional_text(2);
+    table.rows.push_back({select->text(0), select->text(1), hash ? Value{*hash} : Value{Null{}}});
+  }
+}
+
+}  // namespace sipplab::db

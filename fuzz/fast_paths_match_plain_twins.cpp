@@ -1,0 +1,156 @@
+// Claim: wherever there is a fast path, it gives what its plain twin gives: the indexed
+// reservation table and late evaluation of arrivals. The traffic is the plan of the case
+// itself, in which contacts are everywhere. Nothing is claimed of the straight shot at the
+// goal: with other robots about, the search may arrive earlier without it, or later.
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "fuzz/support/case_input.hpp"
+#include "fuzz/support/claims.hpp"
+#include "fuzz/support/target.hpp"
+#include "planner/core/tolerances.hpp"
+#include "planner/geometry/collision_interval.hpp"
+#include "planner/grid/line_of_sight.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/search/sipp_search.hpp"
+
+namespace {
+
+using namespace sipplab;
+using fuzz::Claim;
+
+/// Seconds. Where two disks set the mover free at the same time, each gives that time with
+/// its own slack and rounding, and the twins may look at either first.
+constexpr double kTwinS = 1e-7;
+/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each.
+constexpr double kArrivalS = 1e-6;
+/// Times from which departures are asked for, in seconds.
+constexpr double kFromS[] = {0, 0.125, 1, 2.5};
+
+void require_twins(bool condition, const char* detail) {
+  fuzz::require(Claim::kTwinsAgree, condition, detail);
+}
+
+/// Everything that moves around one robot: obstacles, and the plan of the others.
+struct Traffic {
+  std::vector<Trajectory> trajectories;
+  std::vector<double> radii;
+};
+
+Traffic traffic_around(const PlanCase& plan_case, AgentIndex agent) {
+  Traffic traffic;
+  const auto add = [&](const Trajectory& trajectory, double radius) {
+    traffic.trajectories.push_back(trajectory);
+    traffic.radii.push_back(radius);
+  };
+  for (const DynamicObstacle& obstacle : plan_case.instance.obstacles) {
+    add(obstacle.trajectory, obstacle.radius_cells);
+  }
+  const PlanResult result = plan(plan_case.instance, plan_case.options);
+  if (result.status != PlanStatus::kSolved) return traffic;
+  fuzz::count(fuzz::Event::kSolved);
+  for (AgentIndex other = 0; other < plan_case.instance.agents.size(); ++other) {
+    if (other != agent)
+      add(result.solution.trajectories[other], plan_case.instance.agents[other].radius_cells);
+  }
+  return traffic;
+}
+
+void fill(ReservationTable& table, const Traffic& traffic) {
+  for (std::size_t i = 0; i < traffic.trajectories.size(); ++i) {
+    table.add(traffic.trajectories[i], traffic.radii[i]);
+  }
+}
+
+void check_departures(const Instance& instance, const Agent& agent, const Traffic& traffic) {
+  ReservationTable table(instance.map, agent.radius_cells);
+  fill(table, traffic);
+  const LineOfSight sight(instance.map, agent.radius_cells);
+  for (std::size_t i = 0; i < instance.map.cell_count(); ++i) {
+    const Cell to = instance.map.cell(i);
+    if (to == agent.start || !sight.is_legal(to) || !sight.is_clear(agent.start, to)) continue;
+    const Move move(Displacement(centre(agent.start), centre(to)), agent.speed_cells_per_s);
+    const double from_s = kFromS[i % std::size(kFromS)];
+    const double fast_s = table.earliest_departure(move, agent.radius_cells, from_s, kForever);
+    const double plain_s = table.earliest_departure_plain(move, agent.radius_cells, from_s, kForever);
+    fuzz::count(fuzz::Event::kComparisons);
+    require_twins(fast_s == plain_s || std::abs(fast_s - plain_s) <= kTwinS, "another earliest departure");
+  }
+}
+
+/// All time less what each disk takes, one disk after another.
+void check_safe_intervals(const Instance& instance, const Agent& agent, const Traffic& traffic) {
+  ReservationTable table(instance.map, agent.radius_cells);
+  fill(table, traffic);
+  for (std::size_t i = 0; i < instance.map.cell_count(); ++i) {
+    const Cell cell = instance.map.cell(i);
+    if (instance.map.is_blocked(cell)) continue;
+    IntervalSet expected;
+    for (std::size_t k = 0; k < traffic.trajectories.size(); ++k) {
+      const Trajectory& trajectory = traffic.trajectories[k];
+      const auto cut = [&](const MovingDisk& disk) {
+        expected.remove_open(collision_interval(centre(cell), disk, agent.radius_cells + disk.radius));
+      };
+      for (const TimedMotion& motion : trajectory.motions) {
+        const Vec2 from = centre(motion.from);
+        cut(motion.is_wait() ? MovingDisk::resting(from, motion.begin_s, motion.end_s, traffic.radii[k])
+                             : MovingDisk::moving(Displacement(from, centre(motion.to)), motion.begin_s,
+                                                  motion.end_s, traffic.radii[k]));
+      }
+      cut(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, traffic.radii[k]));
+    }
+    require_twins(table.safe_intervals(cell, agent.radius_cells) == expected.intervals(),
+                  "other safe intervals");
+  }
+}
+
+struct Arrival {
+  bool found = false;
+  double arrival_s = 0;
+};
+
+Arrival search(const PlanCase& plan_case, AgentIndex agent, const Traffic& traffic,
+               const SippOptions& options) {
+  ReservationTable table(plan_case.instance.map, plan_case.instance.agents[agent].radius_cells);
+  fill(table, traffic);
+  SearchStatistics statistics;
+  const auto trajectory = SippSearch(plan_case.instance, options).plan(agent, table, {}, statistics);
+  if (!trajectory) return {};
+  return {true, trajectory->arrival_s()};
+}
+
+void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& traffic) {
+  SippOptions options;
+  options.connectedness = plan_case.options.connectedness;
+  options.any_angle = false;
+  const Arrival grid = search(plan_case, agent, traffic, options);
+  options.lazy_evaluation = false;
+  const Arrival eager = search(plan_case, agent, traffic, options);
+  options.indexed_reservations = false;
+  const Arrival plain = search(plan_case, agent, traffic, options);
+  for (const Arrival& twin : {eager, plain}) {
+    require_twins(twin.found == grid.found, "found by one twin only");
+    require_twins(!grid.found || std::abs(twin.arrival_s - grid.arrival_s) <= kArrivalS, "another arrival");
+  }
+  if (!grid.found) return;
+  options = {};
+  options.connectedness = plan_case.options.connectedness;
+  const Arrival any_angle = search(plan_case, agent, traffic, options);
+  require_twins(any_angle.found && any_angle.arrival_s <= grid.arrival_s + kArrivalS,
+                "any-angle arrives later than moves between neighbours");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto plan_case = fuzz::read_case(data, size);
+  if (!plan_case) return -1;
+  if (plan_case->instance.agents.empty()) return 0;
+  const AgentIndex agent = plan_case->options.seed % plan_case->instance.agents.size();
+  const Traffic traffic = traffic_around(*plan_case, agent);
+  check_departures(plan_case->instance, plan_case->instance.agents[agent], traffic);
+  check_safe_intervals(plan_case->instance, plan_case->instance.agents[agent], traffic);
+  check_searches(*plan_case, agent, traffic);
+  return 0;
+}

@@ -1,0 +1,243 @@
+// Claim: whatever the case, the planner's answer is right. Every plan passes the validator
+// and keeps its start-safe intervals; what holds between two runs of the planner holds. The
+// input is the text of a case; every law of planner and validator that one instance allows
+// is checked, none that need not hold.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz/support/case_input.hpp"
+#include "fuzz/support/claims.hpp"
+#include "fuzz/support/target.hpp"
+#include "planner/instance/reachability.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/validator/certify.hpp"
+#include "planner/validator/validator.hpp"
+#include "property_tests/support/symmetry.hpp"
+
+namespace {
+
+using namespace sipplab;
+using fuzz::Claim;
+using fuzz::count;
+using fuzz::Event;
+using fuzz::require;
+
+/// Seconds. Rounding of sums of square roots.
+constexpr double kRoundingS = 1e-9;
+
+ValidationOptions promises_of(const PlanCase& plan_case, const PlanResult& result) {
+  ValidationOptions options;
+  options.ssi_s = plan_case.options.ssi_s;
+  options.order = result.order();
+  return options;
+}
+
+bool same(const PlanResult& a, const PlanResult& b) {
+  return a.status == b.status && a.solution == b.solution &&
+         a.statistics.expansions == b.statistics.expansions &&
+         a.statistics.generations == b.statistics.generations &&
+         std::equal(a.trace.begin(), a.trace.end(), b.trace.begin(), b.trace.end(),
+                    [](const Try& one, const Try& other) {
+                      return one.order == other.order && one.failed == other.failed;
+                    });
+}
+
+void count_outcome(const PlanCase& plan_case, const PlanResult& result) {
+  count(result.status == PlanStatus::kSolved   ? Event::kSolved
+        : result.status == PlanStatus::kFailed ? Event::kFailed
+                                               : Event::kLimited);
+  if (result.tries() < 2) return;
+  count(Event::kRescheduled);
+  count(plan_case.options.rescheduling == Rescheduling::kDeterministic ? Event::kDeterministic
+                                                                       : Event::kRandom);
+}
+
+void check_plan(const PlanCase& plan_case, const PlanResult& result) {
+  const Instance& instance = plan_case.instance;
+  const ValidationReport report = validate(instance, result.solution, promises_of(plan_case, result));
+  require(Claim::kPlanIsValid, report.valid(), report.valid() ? "" : report.violations.front().message);
+  require(Claim::kPlanIsCertified, certify(instance, result.solution).collisions == 0,
+          "two bodies of a valid plan are proven to overlap");
+  double latest_s = 0;
+  double sum_s = 0;
+  for (const Trajectory& trajectory : result.solution.trajectories) {
+    const double arrival_s = trajectory.motions.empty() ? 0 : trajectory.motions.back().end_s;
+    latest_s = std::max(latest_s, arrival_s);
+    sum_s += arrival_s;
+  }
+  require(
+      Claim::kCostsAreArrivals,
+      makespan_s(result.solution) == latest_s && std::abs(flowtime_s(result.solution) - sum_s) <= kRoundingS,
+      "makespan or flowtime is not what the trajectories say");
+}
+
+/// The agents in their priority order, so that fifo is that order.
+PlanCase in_order(const PlanCase& plan_case, const PriorityOrder& order) {
+  PlanCase sorted = plan_case;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    sorted.instance.agents[i] = plan_case.instance.agents[order[i]];
+  sorted.options.order = InitialOrder::kFifo;
+  sorted.options.rescheduling = Rescheduling::kNone;
+  return sorted;
+}
+
+PlanResult plan_of(const PlanCase& plan_case) { return plan(plan_case.instance, plan_case.options); }
+
+void check_final_order(const PlanCase& plan_case, const PlanResult& result) {
+  PlanCase sorted = in_order(plan_case, result.order());
+  const PlanResult replayed = plan_of(sorted);
+  bool the_same = replayed.status == PlanStatus::kSolved;
+  for (std::size_t i = 0; the_same && i < result.order().size(); ++i) {
+    the_same = replayed.solution.trajectories[i] == result.solution.trajectories[result.order()[i]];
+  }
+  require(Claim::kFinalOrderExplainsPlan, the_same, "planned anew in the final order, trajectories differ");
+  if (plan_case.options.ssi_s != 0 || sorted.instance.agents.empty()) return;
+  sorted.instance.agents.pop_back();
+  Solution expected = replayed.solution;
+  expected.trajectories.pop_back();
+  const PlanResult others = plan_of(sorted);
+  require(Claim::kLastRobotAtZero, others.status == PlanStatus::kSolved && others.solution == expected,
+          "without the robot of the lowest priority, others move differently");
+}
+
+/// What one plan without re-scheduling says about the same case with it, and about the
+/// goal of the last robot.
+void check_without_rescheduling(const PlanCase& plan_case, const PlanResult& result) {
+  PlanCase changed = plan_case;
+  changed.options.rescheduling = Rescheduling::kNone;
+  const bool was_off = plan_case.options.rescheduling == Rescheduling::kNone;
+  const PlanResult off = was_off ? result : plan_of(changed);
+  if (off.status != PlanStatus::kSolved) return;
+  if (!was_off)
+    require(Claim::kReschedulingLosesNone, same(off, result), "re-scheduling changed what was solved");
+  if (changed.options.order != InitialOrder::kFifo || changed.instance.agents.empty()) return;
+  Agent& last = changed.instance.agents.back();
+  last.goal = last.start;
+  if (find_error(changed.instance)) return;
+  const PlanResult after = plan_of(changed);
+  if (after.status != PlanStatus::kSolved) return;
+  for (AgentIndex i = 0; i + 1 < changed.instance.agents.size(); ++i) {
+    require(Claim::kLastGoalIsFree, after.solution.trajectories[i] == off.solution.trajectories[i],
+            "the last robot's goal changed the way of another");
+  }
+}
+
+void check_budgets(const PlanCase& plan_case, const PlanResult& result) {
+  require(Claim::kBudgetIsKept,
+          result.statistics.expansions <= plan_case.options.max_expansions &&
+              result.tries() <= plan_case.options.max_restarts + 1,
+          "more expansions or restarts than allowed");
+  if (result.statistics.expansions == 0) return;
+  PlanCase less = plan_case;
+  less.options.max_expansions = result.statistics.expansions / 2;
+  const PlanResult limited = plan_of(less);
+  require(
+      Claim::kBudgetIsKept,
+      limited.status == PlanStatus::kLimit && limited.statistics.expansions <= less.options.max_expansions,
+      "half of the expansions are not a limit");
+}
+
+/// Moves between 4-neighbours from one cell to another, by breadth-first search.
+std::optional<int> steps_between(const GridMap& map, Cell from, Cell to) {
+  std::vector<int> steps(map.cell_count(), -1);
+  std::deque<Cell> queue{from};
+  steps[map.index(from)] = 0;
+  while (!queue.empty()) {
+    const Cell cell = queue.front();
+    queue.pop_front();
+    if (cell == to) return steps[map.index(cell)];
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
+      const Cell next{cell.x + step.x, cell.y + step.y};
+      if (!map.contains(next) || map.is_blocked(next) || steps[map.index(next)] >= 0) continue;
+      steps[map.index(next)] = steps[map.index(cell)] + 1;
+      queue.push_back(next);
+    }
+  }
+  return std::nullopt;
+}
+
+/// One robot, first to plan, and nothing that moves: all is known. Radius up to one half.
+void check_lone_robot(const PlanCase& plan_case) {
+  PlanCase lone = plan_case;
+  lone.instance.obstacles.clear();
+  if (lone.instance.agents.empty()) return;
+  lone.instance.agents.resize(1);
+  const Agent& agent = lone.instance.agents[0];
+  if (agent.radius_cells > kDefaultRadiusCells) return;
+  const PlanResult result = plan_of(lone);
+  if (result.status == PlanStatus::kLimit) return;
+  const auto steps = steps_between(lone.instance.map, agent.start, agent.goal);
+  require(Claim::kLoneRobotIsExact, (result.status == PlanStatus::kSolved) == steps.has_value(),
+          "solved, unlike breadth-first search");
+  if (!steps) return;
+  const double way_cells = result.solution.trajectories[0].arrival_s() * agent.speed_cells_per_s;
+  const double rounding_cells = kRoundingS * (1 + agent.speed_cells_per_s);
+  require(Claim::kLoneRobotIsExact, way_cells >= distance(agent.start, agent.goal) - rounding_cells,
+          "shorter than the straight line");
+  require(Claim::kLoneRobotIsExact, way_cells <= *steps + rounding_cells, "longer than breadth-first search");
+}
+
+/// The verdict on a plan, seen from elsewhere and with one robot less.
+void check_verdict(const PlanCase& plan_case, const PlanResult& result) {
+  const Scene scene{plan_case.instance, result.solution};
+  const ValidationOptions options = promises_of(plan_case, result);
+  const auto valid = [&](const Scene& seen, double ssi_s) {
+    ValidationOptions changed = options;
+    changed.ssi_s = ssi_s;
+    return validate(seen.instance, seen.solution, changed).valid();
+  };
+  require(Claim::kVerdictIsInvariant, valid(rotated(scene), options.ssi_s), "invalid after a quarter turn");
+  require(Claim::kVerdictIsInvariant, valid(reflected(scene), options.ssi_s), "invalid in a mirror");
+  require(Claim::kVerdictIsInvariant, valid(slowed(scene, 2), options.ssi_s * 2),
+          "invalid at half the speed");
+  if (scene.instance.agents.empty()) return;
+  const AgentIndex gone = plan_case.options.seed % scene.instance.agents.size();
+  const Scene fewer = without_agent(scene, gone);
+  ValidationOptions without = options;
+  without.order = without_agent(options.order, gone);
+  require(Claim::kVerdictIsInvariant, validate(fewer.instance, fewer.solution, without).valid(),
+          "invalid without one robot");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::optional<PlanCase> plan_case = fuzz::read_case(data, size);
+  if (!plan_case) return -1;
+  const PlanResult result = plan_of(*plan_case);
+  count_outcome(*plan_case, result);
+  const bool solved = result.status == PlanStatus::kSolved;
+  require(Claim::kResultIsWhole,
+          result.tries() >= 1 && result.solution.trajectories.size() ==
+                                     (solved ? plan_case->instance.agents.size() : std::size_t{0}),
+          "a plan for some robots only");
+  require(Claim::kUnreachableIsUnsolved, !solved || !find_unreachable_goal(plan_case->instance),
+          "solved with a goal that cannot be reached");
+  if (solved) check_plan(*plan_case, result);
+  check_lone_robot(*plan_case);
+  // Laws that need more plans take turns, so that twice as many cases are seen. The seed
+  // decides, which stays the same while a case is made smaller.
+  switch (plan_case->options.seed % 5) {
+    case 0:
+      require(Claim::kSameInputSamePlan, same(result, plan_of(*plan_case)),
+              "planned again, something differs");
+      break;
+    case 1:
+      check_budgets(*plan_case, result);
+      break;
+    case 2:
+      if (solved) check_verdict(*plan_case, result);
+      break;
+    case 3:
+      if (solved) check_final_order(*plan_case, result);
+      break;
+    default:
+      check_without_rescheduling(*plan_case, result);
+      break;
+  }
+  return 0;
+}

@@ -1,0 +1,89 @@
+// Claims and counts; see claims.hpp.
+#include "fuzz/support/claims.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+namespace sipplab::fuzz {
+namespace {
+
+constexpr std::array<std::string_view, kClaims> kClaimNames = {
+    "refusal is one line",     "reads back equal",     "memory in proportion",
+    "result is whole",         "plan is valid",        "plan is certified",
+    "costs are arrivals",      "same input same plan", "final order explains plan",
+    "unreachable is unsolved", "lone robot is exact",  "re-scheduling loses none",
+    "last robot at zero",      "last goal is free",    "budget is kept",
+    "trace follows rules",     "verdict is invariant", "planted defect is found",
+    "closed form is right",    "sight is exact",       "twins agree",
+};
+constexpr std::array<std::string_view, kEvents> kEventNames = {
+    "inputs",           "accepted",  "refused",      "valid instances", "two robots", "solved",
+    "failed",           "limited",   "rescheduled",  "deterministic",   "random",     "any-angle",
+    "starts protected", "obstacles", "mixed bodies", "comparisons",
+};
+constexpr std::size_t kCounts = kClaims + kEvents;
+
+using Counters = std::atomic<std::uint64_t>;
+static_assert(sizeof(Counters) == sizeof(std::uint64_t) && Counters::is_always_lock_free);
+
+/// Numbers in the file of the environment variable, or in memory that nobody reads.
+Counters* map_counters() {
+  static std::array<Counters, kCounts> own{};
+  const char* path = std::getenv(kCountsVariable);
+  if (path == nullptr || *path == '\0') return own.data();
+  const int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) return own.data();
+  void* mapped = MAP_FAILED;
+  if (ftruncate(file, static_cast<off_t>(kCounts * sizeof(Counters))) == 0) {
+    mapped = mmap(nullptr, kCounts * sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  }
+  close(file);
+  return mapped == MAP_FAILED ? own.data() : static_cast<Counters*>(mapped);
+}
+
+void add_one(std::size_t index) {
+  static Counters* const counters = map_counters();
+  counters[index].fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+std::string_view name(Claim claim) { return kClaimNames[static_cast<std::size_t>(claim)]; }
+std::string_view name(Event event) { return kEventNames[static_cast<std::size_t>(event)]; }
+
+void count(Event event) { add_one(kClaims + static_cast<std::size_t>(event)); }
+
+void require(Claim claim, bool condition, const char* detail) {
+  add_one(static_cast<std::size_t>(claim));
+  if (condition) return;
+  std::fprintf(stderr, "broken claim: %s: %s\n", name(claim).data(), detail);
+  std::abort();
+}
+
+void require(Claim claim, bool condition, const std::string& detail) {
+  require(claim, condition, detail.c_str());
+}
+
+std::vector<Count> read_counts(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<Count> counts;
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < kCounts; ++i) {
+    if (!file.read(reinterpret_cast<char*>(&value), sizeof value)) return {};
+    if (value == 0) continue;
+    const bool is_claim = i < kClaims;
+    counts.push_back(
+        {is_claim ? "claim" : "event", is_claim ? kClaimNames[i] : kEventNames[i - kClaims], value});
+  }
+  return counts;
+}
+
+}  // namespace sipplab::fuzz

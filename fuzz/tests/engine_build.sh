@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# The build script for distributed engines: two targets are built with the engine that is at
+# hand, and everything is there that an engine looks for. usage: engine_build.sh SCRIPT COMPILER
+set -euo pipefail
+script=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/out"
+# Without optimisation and sanitizers: what is tested is the script.
+OUT=$folder/out WORK=$folder CXX=$2 CXXFLAGS="-O0 -fsanitize=fuzzer-no-link" LIB_FUZZING_ENGINE=-fsanitize=fuzzer \
+  "$script" parse_map_never_crashes plan_then_validate >"$folder/log" 2>&1 || { cat "$folder/log" && exit 1; }
+
+expect() { [ -e "$folder/out/$1" ] || { echo "no $1 in \$OUT, expected one" && ls "$folder/out" && exit 1; }; }
+for name in parse_map_never_crashes plan_then_validate; do
+  expect "$name"
+  expect "${name}_seed_corpus.zip"
+  expect "$name.options"
+  mkdir "$folder/$name"
+  (cd "$folder/$name" && cmake -E tar xf "$folder/out/${name}_seed_corpus.zip")
+  # Somewhere else, as a fuzzer that knows nothing of the build.
+  (cd "$folder/$name" && "$folder/out/$name" -runs=200 -seed=1 "$folder/$name" >"$folder/log" 2>&1) ||
+    { cat "$folder/log" && exit 1; }
+done
+expect parse_map_never_crashes.dict
+ldd "$folder/out/plan_then_validate" | grep -q "$folder/out/lib/libpugixml" || { echo "libpugixml is not taken along" && exit 1; }
+grep -q 'dict = parse_map_never_crashes.dict' "$folder/out/parse_map_never_crashes.options"
+echo "built, seeded and run"
