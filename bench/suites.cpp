@@ -37,6 +37,22 @@ Suite smoke() {
   return suite;
 }
 
+/// What `sipplab gate` times: densities from sparse to crowded on both maps, each instance
+/// in a few milliseconds, so that a second holds dozens of plannings of each build.
+Suite gate() {
+  Suite suite;
+  suite.name = "gate";
+  suite.purpose = "what `sipplab gate` times: short plannings at four densities";
+  suite.instances = 5;
+  suite.time_limit_s = kGenerousLimitS;
+  suite.max_restarts = 30;
+  suite.blocks = {
+      {kEmpty, {32, 64}, {5}, {kDeterministic}},
+      {kWarehouse, {32, 48}, {5}, {kDeterministic}},
+  };
+  return suite;
+}
+
 Suite density() {
   Suite suite;
   suite.name = "density";
@@ -73,10 +89,23 @@ Suite paper() {
   return suite;
 }
 
+/// Tries of an adversarial case: as many as performance fuzzing allowed.
+constexpr std::uint64_t kAdversarialRestarts = 100;
+
+Suite adversarial() {
+  Suite suite;
+  suite.name = "adversarial";
+  suite.purpose = "small cases that performance fuzzing found hard for their size";
+  suite.time_limit_s = kGenerousLimitS;
+  suite.max_restarts = kAdversarialRestarts;
+  suite.adversarial_cases = true;
+  return suite;
+}
+
 }  // namespace
 
 const std::vector<Suite>& suites() {
-  static const std::vector<Suite> all = {smoke(), density(), paper()};
+  static const std::vector<Suite> all = {smoke(), gate(), density(), paper(), adversarial()};
   return all;
 }
 

@@ -1,4 +1,4 @@
-// Text in columns. Internal to db/.
+// Text in columns, for the reports of every room.
 #pragma once
 
 #include <string>

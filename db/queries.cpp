@@ -109,7 +109,9 @@ Result<Done> set_exclusion(Database& database, std::string_view run,
   auto update =
       Statement::prepare(database.connection(),
                          "UPDATE run SET excluded_reason = ?1, "
-                         "excluded_utc = CASE WHEN ?1 IS NULL THEN NULL ELSE ?2 END WHERE uuid = ?3",
+                         "excluded_utc = CASE WHEN ?1 IS NULL THEN NULL ELSE ?2 END, "
+                         "included_utc = CASE WHEN ?1 IS NULL AND excluded_reason IS NOT NULL THEN ?2 "
+                         "ELSE included_utc END WHERE uuid = ?3",
                          "excluding or including a run");
   if (!update) return Unexpected{update.error()};
   if (auto done = update->bind(reason, utc_now(), *uuid).run(); !done) return done;
@@ -174,6 +176,21 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
                             fmt::format("{}: {} fits more than one run, expected more digits", file, text)}};
   }
   return found->front();
+}
+
+Result<std::optional<std::string>> run_before(Database& database, const std::string& uuid) {
+  auto select =
+      Statement::prepare(database.connection(),
+                         "SELECT other.uuid FROM run JOIN run AS other ON other.suite = run.suite AND "
+                         "other.excluded_reason IS NULL "
+                         "AND (other.started_utc, other.id) < (run.started_utc, run.id) "
+                         "WHERE run.uuid = ? ORDER BY other.started_utc DESC, other.id DESC LIMIT 1",
+                         "looking for the run before");
+  if (!select) return Unexpected{select.error()};
+  const auto row = select->bind(uuid).step();
+  if (!row) return Unexpected{row.error()};
+  if (!row.value()) return std::optional<std::string>{};
+  return std::optional<std::string>{select->text(0)};
 }
 
 Result<RunReport> show_run(Database& database, std::string_view run) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "db/database.hpp"
@@ -82,6 +83,10 @@ Result<std::vector<RunSummary>> list_runs(Database& database, const RunFilter& f
 /// UUID, or a beginning of one, at least four digits long, that fits one run only.
 Result<std::string> resolve_run(Database& database, std::string_view text);
 
+/// The newest run of the same suite that began before a run, excluded ones left out.
+/// REQUIRES: the UUID of a run.
+Result<std::optional<std::string>> run_before(Database& database, const std::string& uuid);
+
 /// Everything that `sipplab show RUN` prints.
 Result<RunReport> show_run(Database& database, std::string_view run);
 
@@ -93,7 +98,12 @@ Result<Done> include_run(Database& database, std::string_view run);
 /// Runs one statement that only reads. The file is opened read-only; writing,
 /// ATTACH, PRAGMAs that set anything, and a second statement are refused with one line.
 /// The aggregates of statistics/sqlite_functions.hpp are there.
-Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql);
+///
+/// Named parameters: `parameters` gives name (without colon) and value, a number where it
+/// reads as one. Unless it does, :run is the newest run that is not excluded, and :other the one
+/// of the same suite before :run.
+Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql,
+                      const std::vector<std::pair<std::string, std::string>>& parameters = {});
 
 /// Text for a person (rounded), or exact values as CSV or JSON. JSON of a run
 /// report is one object: {"run": {...}, "cells": [{...}, ...]}.

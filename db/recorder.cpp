@@ -49,12 +49,12 @@ Result<Done> insert_run(Database& database, const RunInfo& info, const std::stri
       connection,
       "INSERT INTO run (uuid, suite, started_utc, status, commit_id, machine_id, build_id, branch, "
       "command_line, "
-      "options, seed, time_limit_s, writer) VALUES (?, ?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "options, seed, time_limit_s, writer, shard) VALUES (?, ?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the run");
   if (!insert) return Unexpected{insert.error()};
   return insert
       ->bind(uuid, info.suite, utc_now(), commit, *machine, *build, info.branch, info.command_line,
-             info.options, to_bits(info.seed), info.time_limit_s, this_process())
+             info.options, to_bits(info.seed), info.time_limit_s, this_process(), info.shard)
       .run();
 }
 
@@ -211,7 +211,16 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
   if (!insert) return Unexpected{insert.error()};
   insert->bind(run_id_, *case_key, utc_now(), static_cast<std::int64_t>(results.size()));
   if (auto done = insert->run(); !done) return done;
-  if (auto done = write_results(connection.last_insert_rowid(), results); !done) return done;
+  const std::int64_t cell_id = connection.last_insert_rowid();
+  if (auto done = write_results(cell_id, results); !done) return done;
+  if (!summariser_) {
+    auto summariser = CellSummariser::prepare(connection);
+    if (!summariser) return Unexpected{summariser.error()};
+    summariser_.emplace(std::move(*summariser));
+  }
+  std::vector<const ResultRow*> rows;
+  for (const BufferedResult& result : results) rows.push_back(&result.row);
+  if (auto done = summariser_->summarise(cell_id, medians_of(rows)); !done) return done;
   return transaction->commit();
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sipplab::db {
 
@@ -27,6 +28,7 @@ struct CommitInfo {
   std::int64_t ancestor_count = 0;
   /// `git rev-list --count --first-parent HASH`; 0 where it is not known.
   std::int64_t first_parent_count = 0;
+  std::vector<std::string> later_parents = {};  ///< hashes, of a merge: the parents after the first
 };
 
 /// A host in one condition: another kernel or more memory makes another machine.
@@ -55,6 +57,7 @@ struct BuildInfo {
 /// One start of a sweep.
 struct RunInfo {
   std::string suite;
+  std::string shard;   ///< "2/8": the second of eight parts of the suite; empty for all of it
   std::string branch;  ///< as checked out; empty where there is none
   std::string command_line;
   /// What must agree, besides suite, build and machine, for a run to be resumed:

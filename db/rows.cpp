@@ -30,14 +30,28 @@ std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(val
 
 Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit) {
   // A shallow clone does not know the counts; whoever knows them fills them in.
-  return upsert(connection,
-                "INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, "
-                "first_parent_count) VALUES (?, ?, ?, ?, ?, ?) "
-                "ON CONFLICT (hash) DO UPDATE SET "
-                "ancestor_count = max(ancestor_count, excluded.ancestor_count), "
-                "first_parent_count = max(first_parent_count, excluded.first_parent_count) RETURNING id",
-                "writing a commit", commit.hash, commit.committed_utc, commit.subject, commit.first_parent,
-                commit.ancestor_count, commit.first_parent_count);
+  const auto id =
+      upsert(connection,
+             "INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, "
+             "first_parent_count) VALUES (?, ?, ?, ?, ?, ?) "
+             "ON CONFLICT (hash) DO UPDATE SET "
+             "ancestor_count = max(ancestor_count, excluded.ancestor_count), "
+             "first_parent_count = max(first_parent_count, excluded.first_parent_count) RETURNING id",
+             "writing a commit", commit.hash, commit.committed_utc, commit.subject, commit.first_parent,
+             commit.ancestor_count, commit.first_parent_count);
+  if (!id) return id;
+  std::vector<std::string> parents;
+  if (!commit.first_parent.empty()) parents.push_back(commit.first_parent);
+  parents.insert(parents.end(), commit.later_parents.begin(), commit.later_parents.end());
+  for (std::size_t position = 0; position < parents.size(); ++position) {
+    auto insert = sqlite::Statement::prepare(
+        connection, "INSERT OR IGNORE INTO commit_parent (commit_id, position, parent_hash) VALUES (?, ?, ?)",
+        "writing the parents of a commit");
+    if (!insert) return Unexpected{insert.error()};
+    insert->bind(*id, static_cast<std::int64_t>(position), parents[position]);
+    if (auto done = insert->run(); !done) return Unexpected{done.error()};
+  }
+  return id;
 }
 
 Result<std::int64_t> machine_id(sqlite::Connection& connection, const MachineInfo& machine) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -154,9 +156,73 @@ Result<Table> read_rows(const sqlite::Handle& handle, sqlite3_stmt* statement) {
   }
 }
 
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+/// :run and :other as UUIDs; what is not asked for may be missing from the history.
+Result<std::string> run_parameter(Database& database, std::string_view name, const Parameters& given) {
+  std::string run = "latest";
+  for (const auto& [key, value] : given) {
+    if (key == name) return resolve_run(database, value);
+    if (key == "run") run = value;
+  }
+  const auto uuid = resolve_run(database, run);
+  if (!uuid || name == "run") return uuid;
+  const auto before = run_before(database, *uuid);
+  if (!before) return Unexpected{before.error()};
+  if (*before) return **before;
+  return Unexpected{
+      Error{ErrorKind::kNotFound,
+            fmt::format("{}: no run of the same suite before {}, expected one, or --param other=RUN",
+                        database.path().string(), *uuid)}};
+}
+
+void bind_text_or_number(sqlite3_stmt* statement, int index, const std::string& text) {
+  std::int64_t whole = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, whole);
+  if (parsed.ec == std::errc{} && parsed.ptr == end) {
+    sqlite3_bind_int64(statement, index, whole);
+    return;
+  }
+  double real = 0;
+  const auto parsed_real = std::from_chars(text.data(), end, real);
+  if (parsed_real.ec == std::errc{} && parsed_real.ptr == end && !std::isnan(real)) {
+    sqlite3_bind_double(statement, index, real);
+    return;
+  }
+  sqlite3_bind_text(statement, index, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+}
+
+Result<Done> bind_parameters(Database& database, sqlite3_stmt* statement, const Parameters& given) {
+  const std::string file = database.path().string();
+  for (const auto& [key, value] : given) {
+    if (sqlite3_bind_parameter_index(statement, (":" + key).c_str()) == 0) {
+      return Unexpected{bad_query(
+          file, fmt::format("parameter {}, expected one that stands as :{} in the query", key, key))};
+    }
+  }
+  for (int index = 1; index <= sqlite3_bind_parameter_count(statement); ++index) {
+    const char* raw_name = sqlite3_bind_parameter_name(statement, index);
+    const std::string name = raw_name == nullptr ? "?" : raw_name + 1;
+    const auto found = std::find_if(given.begin(), given.end(),
+                                    [&name](const auto& parameter) { return parameter.first == name; });
+    if (name == "run" || name == "other") {
+      const auto uuid = run_parameter(database, name, given);
+      if (!uuid) return Unexpected{uuid.error()};
+      sqlite3_bind_text(statement, index, uuid->data(), static_cast<int>(uuid->size()), SQLITE_TRANSIENT);
+    } else if (found != given.end()) {
+      bind_text_or_number(statement, index, found->second);
+    } else {
+      return Unexpected{bad_query(file, fmt::format("no value for :{0}, expected --param {0}=VALUE", name))};
+    }
+  }
+  return Done{};
+}
+
 }  // namespace
 
-Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql) {
+Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql,
+                      const Parameters& parameters) {
   auto database = Database::open_read_only(path);
   if (!database) return Unexpected{database.error()};
   auto& connection = database->connection();
@@ -187,6 +253,8 @@ Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql)
   if (has_statement(db, tail)) {
     return Unexpected{bad_query(file, "more than one statement, expected a single one")};
   }
+  if (auto done = bind_parameters(*database, statement.get(), parameters); !done)
+    return Unexpected{done.error()};
   return read_rows(connection.handle(), statement.get());
 }
 

@@ -20,6 +20,7 @@
 #include "bench/sweep/interrupt.hpp"
 #include "bench/sweep/reporters.hpp"
 #include "bench/sweep/run_info.hpp"
+#include "bench/sweep/shard.hpp"
 #include "bench/sweep/sweep.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
@@ -46,6 +47,7 @@ struct BenchArguments {
   std::optional<std::uint64_t> max_restarts;
   std::uint64_t seed = 1;
   std::int64_t repetitions = 1;
+  std::optional<std::string> shard;
   bool resume = false;
   std::optional<std::string> database;
   bool json = false;
@@ -96,6 +98,7 @@ std::string full_name(const bench::ExpandedSweep& sweep, const bench::NamedCase&
 db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep& sweep) {
   db::RunInfo info;
   info.suite = arguments.folders.empty() ? arguments.suite : "instances";
+  info.shard = arguments.shard.value_or("");
   info.command_line = arguments.invocation.command_line;
   std::string cases;
   for (const bench::NamedCase& named : sweep.cases) cases += full_name(sweep, named) + "\n";
@@ -230,6 +233,16 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   if (cases->cases.empty()) {
     return fail(kBadUsage, "sipplab: --benchmark_filter: no case matches " + in_quotes(flags->filter));
   }
+  if (arguments.shard) {
+    // Neighbouring cases cost alike: dealing them out in turn gives shards of like length.
+    const bench::Shard shard = bench::parse_shard(*arguments.shard).value_or(bench::Shard{});
+    position = 0;
+    keep_cases(*cases, [&shard, &position](const bench::NamedCase&) { return shard.holds(position++); });
+    if (cases->cases.empty()) {
+      return fail(kBadUsage,
+                  "sipplab: --shard " + *arguments.shard + ": no case is left for it, expected fewer shards");
+    }
+  }
   if (flags->list_tests) {
     for (const bench::NamedCase& named : cases->cases) print(full_name(*cases, named) + "\n");
     return kSuccess;
@@ -250,7 +263,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                            ->check([](const std::string& text) {
                              return bench::find_suite(text) != nullptr
                                         ? std::string()
-                                        : in_quotes(text) + ", expected smoke, density or paper";
+                                        : in_quotes(text) + ", expected smoke, gate, density or paper";
                            })
                            ->capture_default_str();
   CLI::Option* folders =
@@ -285,6 +298,14 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->capture_default_str();
   command.add_option("--repetitions", arguments.repetitions, "the same as --benchmark_repetitions")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
+  command
+      .add_option("--shard", arguments.shard,
+                  "only part I of N of the cases; `sipplab merge` joins the histories")
+      ->check([](const std::string& text) {
+        return bench::parse_shard(text) ? std::string()
+                                        : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
+      })
+      ->type_name("I/N");
   command.add_flag("--resume", arguments.resume, "do only what is missing of a run that was stopped");
   add_database_flag(command, arguments.database);
   command.add_flag("--json", arguments.json, "print one JSON document");

@@ -26,6 +26,15 @@ Command add_bench_command(CLI::App& program, const Invocation& invocation);
 Command add_runs_command(CLI::App& program);
 Command add_show_command(CLI::App& program);
 Command add_sql_command(CLI::App& program);
+Command add_trend_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
+Command add_merge_command(CLI::App& program);
+Command add_import_command(CLI::App& program);
+Command add_doctor_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_gate_command(CLI::App& program);
 Command add_property_command(CLI::App& program, const Invocation& invocation);
+Command add_fuzz_command(CLI::App& program);
+Command add_findings_command(CLI::App& program, const Invocation& invocation);
 
 }  // namespace sipplab::cli

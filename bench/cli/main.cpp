@@ -52,6 +52,11 @@ int parse_and_run(int argc, char** argv) {
       add_generate_command(program), add_bench_command(program, invocation_of(argc, argv)),
       add_runs_command(program),     add_show_command(program),
       add_sql_command(program),      add_property_command(program, invocation_of(argc, argv)),
+      add_fuzz_command(program),     add_findings_command(program, invocation_of(argc, argv)),
+      add_compare_command(program),  add_gate_command(program),
+      add_trend_command(program),    add_merge_command(program),
+      add_doctor_command(program),   add_import_command(program),
+      add_report_command(program),
   };
   try {
     program.parse(argc, argv);

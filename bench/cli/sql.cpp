@@ -1,12 +1,18 @@
 // sipplab sql: one question to the history, in SQL. It can only read.
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
+#include "db/catalogue.hpp"
 #include "db/database.hpp"
 #include "db/queries.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -14,10 +20,44 @@ namespace {
 struct SqlArguments {
   HistoryFlags history;
   std::string query;
+  std::vector<std::string> parameters;
+  bool list = false;
 };
 
+int list_views(const SqlArguments& arguments) {
+  const db::OutputFormat format = arguments.history.output_format();
+  if (format != db::OutputFormat::kTable) {
+    db::Table table{{"view", "since", "purpose", "example"}, {}};
+    for (const db::ViewDescription& view : db::view_catalogue()) {
+      table.rows.push_back({view.name, view.since, view.purpose, view.example});
+    }
+    print(db::format(table, format));
+    return kSuccess;
+  }
+  std::string text;
+  for (const db::ViewDescription& view : db::view_catalogue()) {
+    text += fmt::format("{}: {}\n    {}\n\n", view.name, view.purpose, view.example);
+  }
+  print(text +
+        "The examples can be given to `sipplab sql` as they are: :run is the newest run and :other the one "
+        "of its\n"
+        "suite before it, unless --param says which. db/schema.md explains every column.\n");
+  return kSuccess;
+}
+
 int run_sql_command(const SqlArguments& arguments) {
-  const auto table = db::run_sql(db::database_path(arguments.history.database), arguments.query);
+  if (arguments.list) return list_views(arguments);
+  if (arguments.query.empty())
+    return fail(kBadUsage, "sipplab: no query, expected a SELECT statement or --list");
+  std::vector<std::pair<std::string, std::string>> parameters;
+  for (const std::string& text : arguments.parameters) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return fail(kBadUsage, "sipplab: --param " + in_quotes(text) + ", expected NAME=VALUE");
+    }
+    parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  const auto table = db::run_sql(db::database_path(arguments.history.database), arguments.query, parameters);
   if (!table) return fail(table.error());
   print(db::format(*table, arguments.history.output_format()));
   return kSuccess;
@@ -28,9 +68,14 @@ int run_sql_command(const SqlArguments& arguments) {
 Command add_sql_command(CLI::App& program) {
   auto arguments = std::make_shared<SqlArguments>();
   CLI::App* command =
-      program.add_subcommand("sql", "ask the history in SQL; db/schema.md explains views and columns");
+      program.add_subcommand("sql", "ask the history in SQL; --list tells the views and an example of each");
   arguments->history.add_to(*command);
-  command->add_option("query", arguments->query, "one SELECT statement")->required();
+  CLI::Option* query = command->add_option("query", arguments->query, "one SELECT statement");
+  command->add_flag("--list", arguments->list, "list the views, with an example of each")->excludes(query);
+  command
+      ->add_option("--param", arguments->parameters,
+                   "value of :NAME in the query; :run and :other take what `sipplab show` takes")
+      ->type_name("NAME=VALUE");
   return {command, [arguments] { return run_sql_command(*arguments); }};
 }
 

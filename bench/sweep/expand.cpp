@@ -4,6 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "bench/adversarial.hpp"
+#include "property_tests/support/case_codec.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -131,10 +134,30 @@ Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request)
   return expansion.take();
 }
 
+/// Each case with the options that it came with.
+ExpandedSweep expand_adversarial(const SweepRequest& request) {
+  Expansion expansion(request);
+  for (const AdversarialCase& adversarial : adversarial_cases()) {
+    std::optional<PlanCase> plan_case = decode_case(adversarial.text);
+    if (!plan_case || find_error(plan_case->instance)) continue;  // a test sees to it that all are read
+    const PlannerOptions& options = plan_case->options;
+    SuiteBlock block;
+    block.ssi_s = {options.ssi_s};
+    block.reschedules = {options.rescheduling};
+    block.orders = {options.order};
+    block.planners = {{options.any_angle, options.connectedness}};
+    const std::size_t set = expansion.add_set(
+        single_instance_set("adversarial-" + std::string(adversarial.name), std::move(plan_case->instance)));
+    expansion.add_cases(replaced(std::move(block), request), set, limits_of(request));
+  }
+  return expansion.take();
+}
+
 }  // namespace
 
 Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
   if (request.suite == nullptr) return expand_folders(request);
+  if (request.suite->adversarial_cases) return expand_adversarial(request);
   const Suite& suite = *request.suite;
   Expansion expansion(request);
   for (const SuiteBlock& original : suite.blocks) {

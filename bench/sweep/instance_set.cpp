@@ -138,6 +138,18 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;  // "01" and "1": any order, as long as it is one
 }
 
+InstanceSet single_instance_set(std::string environment, Instance instance) {
+  InstanceSet set;
+  set.map_spec = environment;
+  set.name = environment;
+  set.robots = instance.agents.size();
+  set.instances.push_back(prepare(std::move(instance), environment));
+  set.environment = std::move(environment);
+  set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);
+  set.speed_cells_per_s = common_value(set, &Agent::speed_cells_per_s, kDefaultSpeedCellsPerS);
+  return set;
+}
+
 Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
                                                 std::uint64_t count, std::uint64_t seed) {
   const Expected<MapSpec, std::string> spec = parse_map_spec(map_spec);

@@ -40,6 +40,9 @@ Expected<std::vector<InstanceSet>, std::string> load_sets(const std::string& fol
                                                           const std::vector<std::size_t>& robots,
                                                           std::optional<std::uint64_t> count);
 
+/// A set of one instance that is in no file; `environment` is its map_spec and name, too.
+InstanceSet single_instance_set(std::string environment, Instance instance);
+
 /// Digits compare as numbers: "2.xml" < "10.xml".
 bool natural_less(const std::string& a, const std::string& b);
 

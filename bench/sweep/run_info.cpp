@@ -49,10 +49,13 @@ std::string program_hash() {
 }  // namespace
 
 SourceInfo source_info() {
-  SourceInfo source;
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink(kThisProgram, error);
-  if (error) return source;
+  return error ? SourceInfo() : source_info(program);
+}
+
+SourceInfo source_info(const std::filesystem::path& program) {
+  SourceInfo source;
   const nlohmann::json json =
       nlohmann::json::parse(read_text(program.parent_path() / "sipplab-source.json"), nullptr, false);
   if (!json.is_object() || !json.contains("hash")) return source;
@@ -63,6 +66,8 @@ SourceInfo source_info() {
   commit.first_parent = json.value("first_parent", "");
   commit.ancestor_count = json.value("ancestor_count", std::int64_t{0});
   commit.first_parent_count = json.value("first_parent_count", std::int64_t{0});
+  std::istringstream later_parents(json.value("later_parents", ""));
+  for (std::string hash; later_parents >> hash;) commit.later_parents.push_back(hash);
   source.branch = json.value("branch", "");
   source.dirty = json.value("dirty", false);
   source.commit = std::move(commit);

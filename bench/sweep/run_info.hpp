@@ -1,6 +1,7 @@
 // Where a run comes from: commit, machine and build.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ struct SourceInfo {
 /// Read from the file that the build leaves beside the program. It is a file of its
 /// own so that a commit which changes no code gives a byte-identical program.
 SourceInfo source_info();
+
+/// The same of another program.
+SourceInfo source_info(const std::filesystem::path& program);
 
 db::MachineInfo machine_info();
 

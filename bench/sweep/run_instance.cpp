@@ -54,7 +54,7 @@ void add_verdict(const Instance& instance, const PlanResult& result, const Plann
 
 }  // namespace
 
-db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
+db::ResultRow described(const PlannerOptions& options, const PlanResult& result) {
   constexpr double kNanosecondsPerSecond = 1e9;
   db::ResultRow row;
   row.status = row_status(result.status);
@@ -67,7 +67,12 @@ db::ResultRow judged(const Instance& instance, const PlannerOptions& options, co
   row.makespan_s = makespan_s(result.solution);
   row.flowtime_s = flowtime_s(result.solution);
   row.plan_hash = leading_bits(plan_hash(result.solution));
-  add_verdict(instance, result, options, row);
+  return row;
+}
+
+db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
+  db::ResultRow row = described(options, result);
+  if (result.status == PlanStatus::kSolved) add_verdict(instance, result, options, row);
   return row;
 }
 

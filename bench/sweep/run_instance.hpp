@@ -9,6 +9,9 @@
 
 namespace sipplab::bench {
 
+/// What the planner returned, before the validator has spoken: not for the history.
+db::ResultRow described(const PlannerOptions& options, const PlanResult& result);
+
 /// The row of the history for what the planner returned, repetition aside. A plan that
 /// the validator rejects has status invalid and the first violation as its message.
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result);

@@ -109,7 +109,7 @@ TEST(Expand, EveryCaseOfEverySuiteHasItsOwnName) {
     ASSERT_TRUE(sweep.has_value()) << sweep.error();
     std::set<std::string> names;
     for (const NamedCase& named : sweep->cases) EXPECT_TRUE(names.insert(named.name).second) << named.name;
-    EXPECT_GT(names.size(), 10u) << suite.name;
+    EXPECT_GE(names.size(), 4u) << suite.name;
   }
 }
 

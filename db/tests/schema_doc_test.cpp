@@ -1,6 +1,11 @@
 // schema.md names everything that the schema has.
+#include <algorithm>
 #include <sstream>
 
+#include "db/catalogue.hpp"
+#include "db/findings.hpp"
+#include "db/gate_runs.hpp"
+#include "db/measurements.hpp"
 #include "db/property_runs.hpp"
 #include "db/queries.hpp"
 #include "db/tests/support.hpp"
@@ -25,6 +30,55 @@ class SchemaDocument : public test::DatabaseTest {
     auto database = test::must(Database::open(file));
     test::must(
         record_property_runs(database, {info.commit, info.branch, info.machine, info.build, ""}, {run}));
+  }
+
+  /// A run, its coverage and what it found: every view of fuzzing has a row.
+  void record_fuzzing() {
+    const RunInfo info = test::sample_run();
+    const FuzzOrigin origin{info.commit, info.branch, info.machine, info.build};
+    FuzzRun run;
+    run.uuid = run.campaign = "00000000-0000-4000-8000-000000000002";
+    run.target = "reads_back";
+    run.mode = "for";
+    run.status = "findings";
+    run.counts = {{"event", "inputs", 1}};
+    Finding finding;
+    finding.target = run.target;
+    finding.kind = "claim";
+    auto database = test::must(Database::open(file));
+    const std::int64_t id = test::must(record_fuzz_run(database, origin, run));
+    test::must(record_fuzz_coverage(database, run.campaign, {{"planner/io/text.cpp", 8, 6}}));
+    test::must(record_finding(database, origin, finding, id, "2026-01-31T12:00:00.000Z"));
+  }
+
+  void record_a_gate_run() {
+    const RunInfo info = test::sample_run();
+    GateRun run;
+    run.suite = "gate";
+    run.machine = info.machine;
+    run.base_build = run.head_build = info.build;
+    run.pair_seconds = 1;
+    run.tolerance = 0.05;
+    run.started_utc = "2026-01-31T12:00:00.000Z";
+    run.verdict = "regressed";
+    run.compared = run.differing = 1;
+    GateCellRow cell;
+    cell.verdict = "equivalent";
+    cell.pairs = {0.01};
+    run.cells = {cell};
+    run.differences = {{test::sample_case(64), test::sample_instance(0), "plan", "one", "another"}};
+    auto database = test::must(Database::open(file));
+    test::must(record_gate_run(database, run));
+  }
+
+  void import_a_report() {
+    MeasurementRun run;
+    run.uuid = "00000000-0000-8000-8000-000000000001";
+    run.started_utc = "2026-01-31T12:00:00.000Z";
+    run.info.suite = "other";
+    run.measurements.push_back({"sort/1024", 0, 100, 12.5, 12.0, "", {}});
+    auto database = test::must(Database::open(file));
+    test::must(record_measurements(database, run));
   }
 };
 
@@ -83,6 +137,9 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
     runs.push_back(recorder.run_uuid());
   }
   record_a_property_run();
+  import_a_report();
+  record_a_gate_run();
+  record_fuzzing();
   const auto expect_answer = [&](std::string sql) {
     replace_all(sql, ":run", "'" + runs[0] + "'");
     replace_all(sql, ":other", "'" + runs[1] + "'");
@@ -99,6 +156,23 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
     expect_answer(sql);
   }
   expect_answer(example(section(document(), "## Functions")));
+}
+
+TEST_F(SchemaDocument, is_the_catalogue_of_all_views) {
+  test::must(Database::open(file));
+  const Table views =
+      test::must(run_sql(file, "SELECT name FROM sqlite_schema WHERE type = 'view' ORDER BY name"));
+  std::vector<std::string> expected;
+  for (const auto& row : views.rows) expected.push_back(std::get<std::string>(row[0]));
+  std::vector<std::string> listed;
+  for (const ViewDescription& view : view_catalogue()) {
+    listed.push_back(view.name);
+    EXPECT_EQ(view.since.rfind("Since version ", 0), 0U) << view.name << ": " << view.since;
+    EXPECT_GT(view.purpose.size(), 10U) << view.name;
+    EXPECT_EQ(view.example.rfind("SELECT", 0), 0U) << view.name << ": " << view.example;
+  }
+  std::sort(listed.begin(), listed.end());
+  EXPECT_EQ(listed, expected);
 }
 
 }  // namespace

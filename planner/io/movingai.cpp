@@ -159,6 +159,7 @@ Input<MovingaiScenario> parse_movingai_scen(std::string_view text, const std::st
                           "9: bucket, map, map width, map height, start x, start y, goal x, goal y, length");
     }
     if (!parse_integer(fields[0])) return reader.error("bucket " + in_quotes(fields[0]), "an integer");
+    if (fields[1].empty()) return reader.error("a map name of blanks", "the name of a map");
     if (!parse_real(fields[8])) return reader.error("optimal length " + in_quotes(fields[8]), "a number");
 
     constexpr std::array<const char*, 6> kNames = {"map width", "map height", "start x",

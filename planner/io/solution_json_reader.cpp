@@ -113,11 +113,12 @@ std::optional<std::string> read_id(JsonReader& reader, const json& value, const 
   return std::nullopt;
 }
 
-void read_trajectories(JsonReader& reader, const json& document, const Instance& instance,
+/// Without a plan the list may be empty.
+void read_trajectories(JsonReader& reader, const json& document, const Instance& instance, bool is_solved,
                        Solution& solution) {
   const json* values = reader.find(document, "trajectories");
   if (!values || !values->is_array()) return reader.fail("trajectories", "a list");
-  if (values->empty()) return;
+  if (values->empty() && !is_solved) return;
   TrajectoryCollector collector(instance);
   std::size_t position = 0;
   for (const json& value : *values) {
@@ -205,7 +206,7 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
                      "the " + std::to_string(instance.agents.size()) + " of the instance");
   }
   read_order(reader, document, instance, result.order);
-  read_trajectories(reader, document, instance, result.solution);
+  read_trajectories(reader, document, instance, result.status == "solved", result.solution);
   read_planner_options(reader, document, result);
   if (reader.error()) return Unexpected{*reader.error()};
   return result;

@@ -231,7 +231,7 @@ int main() {
     const PairVerdict verdict = certify_at(a, b, least_cells + depth_cells);
     RC_ASSERT(verdict.certificate == PairCertificate::kCollision);
     RC_ASSERT(verdict.depth_cells >= depth_cells - kRoundingCells);
-    const Vec2 apart = position_at(a, verdict.time_s) - position_at(b, verdict.time_s);
+    const Vec2 apart = sampled_position(a, verdict.time_s) - sampled_position(b, verdict.time_s);
     RC_ASSERT(norm(apart) <= least_cells + depth_cells - verdict.depth_cells + kRoundingCells);
     RC_CLASSIFY(least_cells > 0, "not in one place");
     RC_CLASSIFY(verdict.time_s >= std::max(a.arrival_s(), b.arrival_s()), "at the goals for ever");

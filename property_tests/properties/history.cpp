@@ -13,6 +13,7 @@
 #include "db/queries.hpp"
 #include "db/recorder.hpp"
 #include "db/sqlite/statement.hpp"
+#include "db/summaries.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
@@ -268,6 +269,7 @@ void check_case(Database& database, const std::string& uuid, std::size_t place, 
 }
 
 void check_sound(Database& database) {
+  RC_ASSERT(must(count_stale_summaries(database.connection())) == 0);
   auto& connection = database.connection();
   RC_ASSERT(must(connection.query_text("PRAGMA integrity_check", "checking")) == "ok");
   RC_ASSERT(must(connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", "checking")) == 0);
@@ -342,20 +344,19 @@ void migrations_keep_rows() {
   std::size_t rows = 0;
   for (const Recorded& recorded : run) rows += recorded.rows.size();
 
-  for (int version = 1; version < Database::latest_schema_version(); ++version) {
-    const std::filesystem::path path = folder.path() / ("older" + std::to_string(version) + ".db");
-    const Tables before = make_older(path, newest, version);
-    RC_ASSERT(before.count("result") == 1u);
-    Database migrated = must(Database::open(path));
-    RC_ASSERT(must(migrated.connection().query_int("PRAGMA user_version", "reading the version")) ==
-              Database::latest_schema_version());
-    for (const auto& [table, held] : before) {
-      RC_ASSERT(contents(migrated.connection(), table, std::get<0>(held)) == std::get<1>(held));
-    }
-    RC_ASSERT(must(migrated.connection().query_int("SELECT count(*) FROM v_results", "counting results")) ==
-              static_cast<std::int64_t>(rows));
-    check_sound(migrated);
+  const int version = *rc::gen::inRange(1, Database::latest_schema_version());
+  const std::filesystem::path path = folder.path() / ("older" + std::to_string(version) + ".db");
+  const Tables before = make_older(path, newest, version);
+  RC_ASSERT(before.count("result") == 1u);
+  Database migrated = must(Database::open(path));
+  RC_ASSERT(must(migrated.connection().query_int("PRAGMA user_version", "reading the version")) ==
+            Database::latest_schema_version());
+  for (const auto& [table, held] : before) {
+    RC_ASSERT(contents(migrated.connection(), table, std::get<0>(held)) == std::get<1>(held));
   }
+  RC_ASSERT(must(migrated.connection().query_int("SELECT count(*) FROM v_results", "counting results")) ==
+            static_cast<std::int64_t>(rows));
+  check_sound(migrated);
   RC_CLASSIFY(rows > 0, "with results");
 }
 

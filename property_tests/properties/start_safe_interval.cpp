@@ -76,7 +76,7 @@ int main() {
       for (std::size_t j = i + 1; j < order.size(); ++j) {
         const double contact = agents[order[i]].radius_cells + agents[order[j]].radius_cells;
         for (double time_s = 0; time_s <= solved.plan_case.options.ssi_s; time_s += kSampleStepS) {
-          const Vec2 place = position_at(solved.result.solution.trajectories[order[i]], time_s);
+          const Vec2 place = sampled_position(solved.result.solution.trajectories[order[i]], time_s);
           RC_ASSERT(norm(place - centre(agents[order[j]].start)) >= contact - kValidatorToleranceCells);
         }
       }

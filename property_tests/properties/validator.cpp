@@ -137,7 +137,7 @@ void agrees_on_the_map(const Scene& scene) {
     const Trajectory& trajectory = scene.solution.trajectories[i];
     double least = static_clearance_at(scene.instance.map, centre(trajectory.end()));
     for (double time_s = 0; time_s < trajectory.arrival_s(); time_s += kSampleStepS) {
-      least = std::min(least, static_clearance_at(scene.instance.map, position_at(trajectory, time_s)));
+      least = std::min(least, static_clearance_at(scene.instance.map, sampled_position(trajectory, time_s)));
     }
     const double error = top_speed(trajectory) * kSampleStepS;
     const bool violated = kinds_of(report).count({ViolationKind::kStaticObstacle, i, kEverything}) > 0;
@@ -161,7 +161,7 @@ void agrees_on_protected_starts(const Scene& scene, double ssi_s) {
       double least = 1e9;         // over the time that counts
       double least_nearby = 1e9;  // the same, with a margin for what samples miss
       const auto look = [&](double time_s) {
-        const Vec2 place = position_at(trajectory, time_s);
+        const Vec2 place = sampled_position(trajectory, time_s);
         const double to_start = norm(place - centre(agents[j].start));
         const double to_goal = norm(place - centre(agents[i].goal));
         // Strictly outside: on the very edge of the own goal's disk either verdict is right.

@@ -7,7 +7,7 @@
 
 namespace sipplab {
 
-Vec2 position_at(const Trajectory& trajectory, double time_s) {
+Vec2 sampled_position(const Trajectory& trajectory, double time_s) {
   for (const TimedMotion& motion : trajectory.motions) {
     if (time_s > motion.end_s) continue;
     const double part = (time_s - motion.begin_s) / (motion.end_s - motion.begin_s);
@@ -33,7 +33,7 @@ SampledDistance sample_distance(const Trajectory& a, const Trajectory& b, double
   }
   SampledDistance sampled{std::numeric_limits<double>::infinity(), 0, 0};
   for (const double time_s : times) {
-    const double apart = norm(position_at(a, time_s) - position_at(b, time_s));
+    const double apart = norm(sampled_position(a, time_s) - sampled_position(b, time_s));
     if (apart < sampled.least_cells) sampled = {apart, 0, time_s};
   }
   // No time is farther than half a step from a sample.

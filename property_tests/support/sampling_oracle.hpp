@@ -7,7 +7,7 @@
 namespace sipplab {
 
 /// Where a body is: found by reading its motions from the first one on.
-Vec2 position_at(const Trajectory& trajectory, double time_s);
+Vec2 sampled_position(const Trajectory& trajectory, double time_s);
 
 /// Fastest motion of a trajectory, in cells per second.
 double top_speed(const Trajectory& trajectory);

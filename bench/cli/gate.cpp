@@ -1,0 +1,247 @@
+// sipplab gate: is a build slower than another, or does it plan otherwise?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/gate/comparison.hpp"
+#include "bench/gate/report.hpp"
+#include "bench/gate/slowdown.hpp"
+#include "bench/gate/worker.hpp"
+#include "bench/suites.hpp"
+#include "bench/sweep/interrupt.hpp"
+#include "db/gate_runs.hpp"
+#include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+constexpr int kSignalExitBase = 128;  // as shells do
+constexpr const char* kThisProgram = "/proc/self/exe";
+
+/// The instances of a comparison are the same always, so that its noise can be compared too.
+constexpr std::uint64_t kInstanceSeed = 1;
+
+struct GateArguments {
+  bool serve = false;
+  bool timed_only = false;
+  std::string base;
+  std::string head;
+  bool calibrate = false;
+  std::size_t comparisons = 5;
+  std::optional<std::string> database;
+  std::string format = "text";
+  bool json = false;
+  std::optional<std::string> junit;
+  bench::GateRequest request;
+};
+
+/// A line that is written over on a terminal; nothing elsewhere.
+class LiveLine {
+ public:
+  void show(const std::string& text) {
+    if (!stderr_is_terminal()) return;
+    std::fputs(("\r\033[K" + text).c_str(), stderr);
+    shown_ = true;
+  }
+  ~LiveLine() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+
+ private:
+  bool shown_ = false;
+};
+
+int exit_code(bench::RowVerdict verdict) {
+  switch (verdict) {
+    case bench::RowVerdict::kEquivalent:
+      return kSuccess;
+    case bench::RowVerdict::kInconclusive:
+      return kInconclusive;
+    case bench::RowVerdict::kRegressed:
+      return kNegativeVerdict;
+  }
+  return kInternalError;
+}
+
+int failed_comparison(const std::string& line) {
+  if (bench::interrupted_by() != 0) {
+    return fail(kSignalExitBase + bench::interrupted_by(), "sipplab: stopped before a verdict");
+  }
+  return fail(kBadUsage, "sipplab: " + line);
+}
+
+void warn_of_unfit_builds(const bench::GateResult& result) {
+  for (const auto* greeting : {&result.base, &result.head}) {
+    if (greeting->unfit.empty()) continue;
+    diagnose(fmt::format("WARNING: {} in the {} build: its times are not worth comparing", greeting->unfit,
+                         greeting == &result.base ? "base" : "head"));
+  }
+}
+
+int run_calibration(const GateArguments& arguments, const bench::GateCases& cases, db::Database& database) {
+  bench::GateRequest request = arguments.request;
+  request.treat_as_different = true;
+  std::optional<bench::GateResult> last;
+  std::vector<db::GateNoise> noise;
+  LiveLine live;
+  for (std::size_t number = 0; number < arguments.comparisons; ++number) {
+    const auto progress = [&](const std::string& what) {
+      live.show(fmt::format("comparison {} of {}: {}", number + 1, arguments.comparisons, what));
+    };
+    request.seed = arguments.request.seed + number;
+    auto result = bench::compare_builds(request, cases, noise, progress);
+    if (!result) return failed_comparison(result.error());
+    const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, true));
+    if (!recorded) return fail(recorded.error());
+    auto measured = db::gate_noise(database, bench::gate_kind(request));
+    if (!measured) return fail(measured.error());
+    noise = std::move(*measured);
+    last = std::move(*result);
+  }
+  live.show("");
+  bench::update_noise(request, cases, noise, *last);
+  warn_of_unfit_builds(*last);
+  print(arguments.json ? bench::noise_json(request, *last) : bench::noise_text(request, *last));
+  return kSuccess;
+}
+
+int run_comparison(const GateArguments& arguments, const bench::GateCases& cases, db::Database& database) {
+  const bench::GateRequest& request = arguments.request;
+  const auto noise = db::gate_noise(database, bench::gate_kind(request));
+  if (!noise) return fail(noise.error());
+  Expected<bench::GateResult, std::string> result = Unexpected{std::string()};
+  {
+    LiveLine live;
+    result =
+        bench::compare_builds(request, cases, *noise, [&live](const std::string& what) { live.show(what); });
+  }
+  if (!result) return failed_comparison(result.error());
+  const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, false));
+  if (!recorded) return fail(recorded.error());
+  warn_of_unfit_builds(*result);
+  if (arguments.json || arguments.format == "json") {
+    print(bench::gate_json(request, cases, *result, *recorded));
+  } else if (arguments.format == "markdown") {
+    print(bench::gate_markdown(request, cases, *result));
+  } else {
+    print(bench::gate_text(request, cases, *result));
+  }
+  if (arguments.junit) {
+    const auto error = write_file(*arguments.junit, bench::gate_junit(cases, *result));
+    if (error) return fail(kBadUsage, error->message());
+  }
+  return exit_code(result->verdict);
+}
+
+int run_gate(const GateArguments& given) {
+  if (given.serve) {
+    bench::serve_gate(std::cin, std::cout);
+    return kSuccess;
+  }
+  GateArguments arguments = given;
+  if (arguments.calibrate) {
+    if (arguments.base.empty()) arguments.base = kThisProgram;
+    if (!arguments.head.empty()) {
+      return fail(kBadUsage, "sipplab: --calibrate runs one build against itself, expected no --head");
+    }
+    arguments.head = arguments.base;
+  }
+  if (arguments.base.empty() || arguments.head.empty()) {
+    return fail(kBadUsage, "sipplab: expected --base BUILD and --head BUILD, or --calibrate");
+  }
+  for (std::string* build : {&arguments.base, &arguments.head}) {
+    auto program = bench::find_program(*build);
+    if (!program) return fail(kBadUsage, "sipplab: " + program.error());
+    *build = std::move(*program);
+  }
+  arguments.request.builds = {arguments.base, arguments.head, {}};
+  for (const char* variable : {bench::kSlowdownVariable, bench::kChangeVariable}) {
+    const char* value = std::getenv(variable);
+    if (value == nullptr || arguments.calibrate) continue;
+    arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
+  }
+  const auto cases = bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only);
+  if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
+  auto database = db::Database::open(db::database_path(arguments.database));
+  if (!database) return fail(database.error());
+  bench::catch_interrupts();
+  return arguments.calibrate ? run_calibration(arguments, *cases, *database)
+                             : run_comparison(arguments, *cases, *database);
+}
+
+/// Empty for a suite that can be timed, else what was expected.
+std::string check_suite(const std::string& text) {
+  const bench::Suite* suite = bench::find_suite(text);
+  const bool timeable = suite != nullptr && suite->max_restarts < UINT64_MAX;
+  return timeable ? std::string() : in_quotes(text) + ", expected gate, smoke or density";
+}
+
+void add_flags(CLI::App& command, GateArguments& arguments) {
+  bench::GateRequest& request = arguments.request;
+  command.add_option("--base", arguments.base, "build to compare with: a sipplab binary or its folder")
+      ->type_name("BUILD");
+  command.add_option("--head", arguments.head, "build to judge")->type_name("BUILD");
+  CLI::Option* calibrate = command.add_flag("--calibrate", arguments.calibrate,
+                                            "compare a build (--base, else this one) with itself and keep "
+                                            "what that says about this machine's noise");
+  command.add_option("--comparisons", arguments.comparisons, "of a calibration")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000}))
+      ->needs(calibrate)
+      ->capture_default_str();
+  command.add_option("--suite", request.suite, "what is timed: gate, smoke, density")
+      ->check(check_suite)
+      ->capture_default_str();
+  command.add_flag("--allow-changes", request.allow_changes,
+                   "other plans are meant: judge only time, validity and how many are solved");
+  command
+      .add_option("--tolerance", request.tolerance, "slowdown to rule out before two builds are equivalent")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  command.add_option("--pairs", request.pairs, "pairs of processes")
+      ->check(CLI::Range(std::size_t{5}, std::size_t{1000}))
+      ->capture_default_str();
+  command.add_option("--pair-seconds", request.budget.seconds, "time that each pair plans for")
+      ->check(CLI::Range(0.01, 600.0))
+      ->capture_default_str();
+  command.add_option("--seed", request.seed, "of the order of plannings")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
+      ->capture_default_str();
+  add_database_flag(command, arguments.database);
+  command.add_option("--format", arguments.format, "text, markdown (for a pull request) or json")
+      ->check(CLI::IsMember({"text", "markdown", "json"}))
+      ->capture_default_str();
+  command.add_flag("--json", arguments.json, "the same as --format json");
+  command.add_option("--junit", arguments.junit, "write JUnit's XML as well")->type_name("FILE");
+  // For scripts and tests: what a judged build is started with; a short exact tier; short pairs;
+  // the same program as if it were two.
+  command.add_flag("--serve", arguments.serve)->group("");
+  command.add_flag("--timed-only", arguments.timed_only)->group("");
+  command.add_option("--fewest-rounds", request.budget.fewest_rounds)->group("")->check(CLI::Range(1, 1000));
+  command.add_flag("--treat-as-different", request.treat_as_different)->group("");
+}
+
+}  // namespace
+
+Command add_gate_command(CLI::App& program) {
+  auto arguments = std::make_shared<GateArguments>();
+  CLI::App* command = program.add_subcommand(
+      "gate", "judge a build against another: same plans? slower? on this machine, now");
+  command->footer(
+      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds; 25 when something\n"
+      "is suspicious and has to be confirmed by fresh processes.");
+  add_flags(*command, *arguments);
+  return {command, [arguments] { return run_gate(*arguments); }};
+}
+
+}  // namespace sipplab::cli

@@ -1,0 +1,81 @@
+// sipplab import: results of other programs into the history.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/import/google_benchmark.hpp"
+#include "db/database.hpp"
+#include "db/measurements.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct ImportArguments {
+  std::string format;
+  std::vector<std::string> files;
+  bench::ImportContext context;
+  std::optional<std::string> database;
+  bool json = false;
+};
+
+int run_import(const ImportArguments& arguments) {
+  std::vector<db::MeasurementRun> runs;  // all are read before the first is written
+  for (const std::string& file : arguments.files) {
+    auto run = bench::read_google_benchmark(file, arguments.context);
+    if (!run) return fail(kBadUsage, run.error());
+    runs.push_back(std::move(*run));
+  }
+  auto database = db::Database::open(db::database_path(arguments.database));
+  if (!database) return fail(database.error());
+  nlohmann::ordered_json imported = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto recorded = db::record_measurements(*database, runs[i]);
+    if (!recorded) return fail(recorded.error());
+    imported.push_back({{"file", arguments.files[i]},
+                        {"run", runs[i].uuid},
+                        {"suite", runs[i].info.suite},
+                        {"measurements", runs[i].measurements.size()},
+                        {"known", recorded->known}});
+    if (!arguments.json) {
+      print(fmt::format("{}: run {}, suite {}, {} measurements{}\n", arguments.files[i], runs[i].uuid,
+                        runs[i].info.suite, runs[i].measurements.size(),
+                        recorded->known ? ", known already" : ""));
+    }
+  }
+  if (arguments.json) print(nlohmann::ordered_json{{"imported", imported}}.dump(2) + "\n");
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_import_command(CLI::App& program) {
+  auto arguments = std::make_shared<ImportArguments>();
+  CLI::App* command = program.add_subcommand("import", "add reports of other benchmark programs");
+  command->add_option("format", arguments->format, "google-benchmark: what --benchmark_format=json writes")
+      ->required()
+      ->check(CLI::IsMember({"google-benchmark"}));
+  command->add_option("files", arguments->files, "reports")->required()->type_name("FILE");
+  command->add_option("--suite", arguments->context.suite, "name for them; default: the program that ran");
+  command->add_option("--commit", arguments->context.commit, "hash of the commit that was measured")
+      ->check([](const std::string& text) {
+        const bool hash = text.size() >= 7 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+        return hash ? std::string() : in_quotes(text) + ", expected 7 or more hexadecimal digits";
+      });
+  command->add_option("--subject", arguments->context.subject, "first line of that commit's message");
+  command->add_option("--branch", arguments->context.branch, "branch that was measured");
+  add_database_flag(*command, arguments->database);
+  command->add_flag("--json", arguments->json, "print one JSON document");
+  command->footer("The view v_measurements shows them. A report that is imported twice is stored once.");
+  return {command, [arguments] { return run_import(*arguments); }};
+}
+
+}  // namespace sipplab::cli

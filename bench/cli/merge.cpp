@@ -1,0 +1,68 @@
+// sipplab merge: many histories into one.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "db/database.hpp"
+#include "db/merge.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> files;
+  std::optional<std::string> database;
+  bool json = false;
+};
+
+std::string summary(const std::string& file, const db::MergeReport& report) {
+  if (report.added.empty()) return file + ": nothing new\n";
+  std::int64_t others = 0;
+  for (const auto& [table, rows] : report.added) {
+    if (table != "run" && table != "cell" && table != "result") others += rows;
+  }
+  return fmt::format("{}: {} runs, {} cells, {} results and {} other rows new\n", file, report.rows_of("run"),
+                     report.rows_of("cell"), report.rows_of("result"), others);
+}
+
+int run_merge(const MergeArguments& arguments) {
+  auto database = db::Database::open(db::database_path(arguments.database));
+  if (!database) return fail(database.error());
+  nlohmann::ordered_json document;
+  document["database"] = database->path().string();
+  document["merged"] = nlohmann::ordered_json::array();
+  for (const std::string& file : arguments.files) {
+    const auto report = db::merge_into(*database, file);
+    if (!report) return fail(report.error());
+    nlohmann::ordered_json added = nlohmann::ordered_json::object();
+    for (const auto& [table, rows] : report->added) added[table] = rows;
+    document["merged"].push_back({{"file", file}, {"added", added}});
+    if (!arguments.json) print(summary(file, *report));
+  }
+  if (arguments.json) print(document.dump(2) + "\n");
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_merge_command(CLI::App& program) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command =
+      program.add_subcommand("merge", "add what other histories hold to this one; twice does no harm");
+  command->add_option("files", arguments->files, "histories to read")->required()->type_name("FILE");
+  add_database_flag(*command, arguments->database);
+  command->add_flag("--json", arguments->json, "print one JSON document");
+  command->footer(
+      "Each file is one transaction. Runs are known by their UUID and keep the file that they came from.");
+  return {command, [arguments] { return run_merge(*arguments); }};
+}
+
+}  // namespace sipplab::cli

@@ -1,0 +1,115 @@
+// sipplab trend: the history of a metric, with its changes of level.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/case_filter.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/report/trend_text.hpp"
+#include "db/database.hpp"
+#include "db/trends.hpp"
+#include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct TrendArguments {
+  std::string metric;
+  std::vector<std::string> cases;
+  std::optional<std::string> suite;
+  std::optional<std::string> branch;
+  std::optional<std::string> machine;
+  std::size_t rows = 20;
+  db::ChangeRules rules;
+  std::optional<std::string> svg;
+  std::optional<std::string> database;
+  bool json = false;
+};
+
+int run_trend(const TrendArguments& arguments) {
+  db::TrendQuery query;
+  query.metric = db::find_trend_metric(arguments.metric);
+  const auto filter = parse_case_filter(arguments.cases);
+  if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
+  if (!query.metric->of_case &&
+      (!arguments.cases.empty() || arguments.suite || arguments.branch || arguments.machine)) {
+    return fail(kBadUsage, "sipplab: " + arguments.metric +
+                               " is not of a case: expected no --case, --suite, --branch or --machine");
+  }
+  query.cases = *filter;
+  query.suite = arguments.suite;
+  query.branch = arguments.branch;
+  query.machine = arguments.machine;
+  auto database = db::Database::open_read_only(db::database_path(arguments.database));
+  if (!database) return fail(database.error());
+  auto series = db::read_trend(*database, query);
+  if (!series) return fail(series.error());
+  if (series->empty()) {
+    return fail(kNothingComparable,
+                database->path().string() + ": no " + arguments.metric +
+                    " of such a case, suite, branch and machine; `sipplab sql 'SELECT DISTINCT "
+                    "case_id, environment, robots, ssi_s FROM v_run_cells'` lists cases");
+  }
+  db::mark_changes(*series, *query.metric, arguments.rules);
+  if (arguments.svg) {
+    const std::string picture = bench::svg(bench::trend_chart(*query.metric, *series), bench::SvgUse::kFile);
+    if (const auto error = write_file(*arguments.svg, picture)) return fail(kBadUsage, error->message());
+  }
+  print(arguments.json ? bench::trend_json(*query.metric, *series).dump(2) + "\n"
+                       : bench::trend_text(*query.metric, *series, arguments.rows));
+  return kSuccess;
+}
+
+std::string metric_names() {
+  std::string names;
+  for (const db::TrendMetric& metric : db::trend_metrics()) {
+    names += (names.empty() ? "" : ", ") + std::string(metric.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Command add_trend_command(CLI::App& program) {
+  auto arguments = std::make_shared<TrendArguments>();
+  CLI::App* command = program.add_subcommand("trend", "the history of a metric, and where its level changed");
+  command->add_option("metric", arguments->metric, metric_names())
+      ->required()
+      ->check([](const std::string& text) {
+        return db::find_trend_metric(text) != nullptr
+                   ? std::string()
+                   : in_quotes(text) + ", expected one of " + metric_names();
+      });
+  add_case_flag(*command, arguments->cases);
+  command->add_option("--suite", arguments->suite, "only runs of this suite");
+  command->add_option("--branch", arguments->branch, "only runs of a checkout of this branch");
+  command->add_option("--machine", arguments->machine, "only this host, or beginning of a fingerprint");
+  command->add_option("--rows", arguments->rows, "newest versions shown of a single case")
+      ->capture_default_str();
+  command
+      ->add_option("--min-segment", arguments->rules.search.min_segment,
+                   "versions between two changes, at least")
+      ->check(CLI::Range(2, 1'000))
+      ->capture_default_str();
+  command
+      ->add_option("--min-effect", arguments->rules.min_effect,
+                   "smallest change marked, 0.05 is 5 % (of a rate: 5 points); default by metric")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", arguments->rules.search.seed, "of the permutation tests")
+      ->capture_default_str();
+  command->add_option("--svg", arguments->svg, "write a picture")->type_name("FILE");
+  add_database_flag(*command, arguments->database);
+  command->add_flag("--json", arguments->json, "print one JSON document");
+  command->footer(
+      "One point for each commit: the median of its runs; builds with uncommitted changes are points of\n"
+      "their own. Times are compared on one machine and kind of build only. A change is marked when it is\n"
+      "significant over all series shown and not too small; it informs, `sipplab gate` decides.");
+  return {command, [arguments] { return run_trend(*arguments); }};
+}
+
+}  // namespace sipplab::cli

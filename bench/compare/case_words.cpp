@@ -1,0 +1,45 @@
+#include "bench/compare/case_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// A part of the name; the first two are always there.
+using Part = std::string (*)(const db::CaseInfo&);
+const Part kParts[] = {
+    [](const db::CaseInfo& c) { return c.environment; },
+    [](const db::CaseInfo& c) { return fmt::format("{} robots", c.robots); },
+    [](const db::CaseInfo& c) { return "ssi " + format_ssi(c.ssi_s); },
+    [](const db::CaseInfo& c) { return c.reschedule; },
+    [](const db::CaseInfo& c) { return c.order; },
+    [](const db::CaseInfo& c) {
+      return fmt::format("{}-{}", c.any_angle ? "any-angle" : "grid", 1 << c.connectedness);
+    },
+    [](const db::CaseInfo& c) { return fmt::format("seed {}", c.seed); },
+};
+constexpr std::size_t kAlwaysThere = 2;
+
+}  // namespace
+
+std::vector<std::string> case_words(const std::vector<db::CaseInfo>& cases) {
+  std::vector<std::string> names(cases.size());
+  for (std::size_t part = 0; part < std::size(kParts); ++part) {
+    const bool varies =
+        cases.size() == 1 || part < kAlwaysThere ||
+        std::any_of(cases.begin(), cases.end(), [&cases, part](const db::CaseInfo& parameters) {
+          return kParts[part](parameters) != kParts[part](cases.front());
+        });
+    if (!varies) continue;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      names[i] += (names[i].empty() ? "" : ", ") + kParts[part](cases[i]);
+    }
+  }
+  return names;
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,15 @@
+// Names of cases for people, as short as tells them apart.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "db/records.hpp"
+
+namespace sipplab::bench {
+
+/// "warehouse, 64 robots" for each case, and after it what is not the same in all of them:
+/// ", ssi 5, deterministic". One case alone is described in full.
+std::vector<std::string> case_words(const std::vector<db::CaseInfo>& cases);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,194 @@
+#include "bench/compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/compare/holm.hpp"
+#include "db/statistics/statistics.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+namespace statistics = db::statistics;
+
+/// Chance of calling equal success rates different in some cell.
+constexpr double kSuccessLevel = 0.05;
+/// The same for flowtimes, which a change of plans always moves: together with the share
+/// below, so that a certain but tiny loss fails nobody.
+constexpr double kQualityLevel = 0.01;
+constexpr double kQualityLoss = 0.01;
+
+bool is_solved(const db::ResultRow& row) { return row.status == db::ResultStatus::kSolved; }
+
+std::optional<double> par2(const db::PairedCell& cell, db::ResultRow db::PairedResult::*side) {
+  if (std::isinf(cell.parameters.time_limit_s)) return std::nullopt;
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  std::vector<statistics::TimedResult> times;
+  for (const db::PairedResult& result : cell.results) {
+    const db::ResultRow& row = result.*side;
+    times.push_back({is_solved(row), static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond,
+                     cell.parameters.time_limit_s});
+  }
+  return statistics::par2(times);
+}
+
+QualityChange quality(const db::PairedCell& cell, std::optional<double> db::ResultRow::*value) {
+  std::vector<double> differences;
+  double base_sum = 0;
+  double head_sum = 0;
+  for (const db::PairedResult& result : cell.results) {
+    if (!is_solved(result.base) || !is_solved(result.head)) continue;
+    const double base = (result.base.*value).value_or(0);
+    const double head = (result.head.*value).value_or(0);
+    differences.push_back(head - base);
+    base_sum += base;
+    head_sum += head;
+  }
+  QualityChange change;
+  if (base_sum > 0) change.mean_ratio = head_sum / base_sum;
+  change.p_value = statistics::wilcoxon(differences).value_or(1);
+  return change;
+}
+
+std::optional<double> time_ratio(const db::PairedCell& cell) {
+  if (!cell.same_machine) return std::nullopt;
+  std::vector<double> log_ratios;
+  for (const db::PairedResult& result : cell.results) {
+    if (result.base.planning_time_ns <= 0 || result.head.planning_time_ns <= 0) continue;
+    log_ratios.push_back(std::log(static_cast<double>(result.head.planning_time_ns) /
+                                  static_cast<double>(result.base.planning_time_ns)));
+  }
+  const std::optional<double> median = statistics::median(log_ratios);
+  if (!median) return std::nullopt;
+  return std::exp(*median);
+}
+
+CellComparison compare_cell(const db::PairedCell& cell) {
+  CellComparison comparison;
+  comparison.cell = &cell;
+  for (std::size_t i = 0; i < cell.results.size(); ++i) {
+    const db::PairedResult& result = cell.results[i];
+    if (const auto what = difference(result.base, result.head)) comparison.differences.push_back({i, *what});
+    const bool base = is_solved(result.base);
+    const bool head = is_solved(result.head);
+    comparison.base_solved += base ? 1U : 0U;
+    comparison.head_solved += head ? 1U : 0U;
+    comparison.both_solved += base && head ? 1U : 0U;
+    if (base && !head) comparison.lost.push_back(i);
+    if (head && !base) comparison.gained.push_back(i);
+    const bool newly_invalid =
+        result.head.status == db::ResultStatus::kInvalid && result.base.status != db::ResultStatus::kInvalid;
+    comparison.head_invalid += newly_invalid ? 1U : 0U;
+  }
+  comparison.success_p = statistics::mcnemar(comparison.lost.size(), comparison.gained.size());
+  comparison.time_ratio = time_ratio(cell);
+  comparison.base_par2_s = par2(cell, &db::PairedResult::base);
+  comparison.head_par2_s = par2(cell, &db::PairedResult::head);
+  comparison.flowtime = quality(cell, &db::ResultRow::flowtime_s);
+  comparison.makespan = quality(cell, &db::ResultRow::makespan_s);
+  return comparison;
+}
+
+/// Why the head is worse in a cell; empty where it is not.
+std::string cell_regression(const CellComparison& cell) {
+  if (cell.head_invalid > 0) return fmt::format("{} plans of the head are invalid", cell.head_invalid);
+  if (cell.lost.size() > cell.gained.size() && cell.success_p <= kSuccessLevel) {
+    return fmt::format("{} instances lost, {} gained (p = {:.2g})", cell.lost.size(), cell.gained.size(),
+                       cell.success_p);
+  }
+  const QualityChange& flowtime = cell.flowtime;
+  if (flowtime.mean_ratio > 1 + kQualityLoss && flowtime.p_value <= kQualityLevel) {
+    return fmt::format("flowtime {:+.1f} % on {} instances (p = {:.2g})", 100 * (flowtime.mean_ratio - 1),
+                       cell.both_solved, flowtime.p_value);
+  }
+  return "";
+}
+
+/// Replaces p values by Holm's, each kind over all cells, and judges the cells by them.
+void adjust(CompareResult& result) {
+  std::vector<double> success;
+  std::vector<double> flowtime;
+  std::vector<double> makespan;
+  for (const CellComparison& cell : result.cells) {
+    success.push_back(cell.success_p);
+    flowtime.push_back(cell.flowtime.p_value);
+    makespan.push_back(cell.makespan.p_value);
+  }
+  success.push_back(statistics::mcnemar(result.lost, result.gained));
+  success = holm(success);
+  flowtime = holm(flowtime);
+  makespan = holm(makespan);
+  for (std::size_t i = 0; i < result.cells.size(); ++i) {
+    result.cells[i].success_p = success[i];
+    result.cells[i].flowtime.p_value = flowtime[i];
+    result.cells[i].makespan.p_value = makespan[i];
+    result.cells[i].regression = cell_regression(result.cells[i]);
+  }
+  result.success_p = success.back();
+}
+
+/// The first reason to call the head worse; empty for none.
+std::string regression(const CompareResult& result, const CompareOptions& options) {
+  for (const CellComparison& cell : result.cells) {
+    if (cell.regression.empty()) continue;
+    return fmt::format("{}, {} robots: {}", cell.cell->parameters.environment, cell.cell->parameters.robots,
+                       cell.regression);
+  }
+  if (result.lost > result.gained && result.success_p <= kSuccessLevel) {
+    return fmt::format("{} instances lost, {} gained over all cells (p = {:.2g})", result.lost, result.gained,
+                       result.success_p);
+  }
+  if (options.exact && result.differing > 0) {
+    return fmt::format("{} of {} plannings gave another result", result.differing, result.compared);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view name(CompareVerdict verdict) {
+  switch (verdict) {
+    case CompareVerdict::kSame:
+      return "same";
+    case CompareVerdict::kChanged:
+      return "changed";
+    case CompareVerdict::kInconclusive:
+      return "inconclusive";
+    case CompareVerdict::kRegressed:
+      return "regressed";
+  }
+  return "unknown";
+}
+
+CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOptions& options) {
+  CompareResult result;
+  for (const db::PairedCell& cell : cells) {
+    if (cell.results.empty()) continue;
+    CellComparison comparison = compare_cell(cell);
+    result.compared += cell.results.size();
+    result.differing += comparison.differences.size();
+    result.lost += comparison.lost.size();
+    result.gained += comparison.gained.size();
+    result.cells.push_back(std::move(comparison));
+  }
+  adjust(result);
+  result.reason = regression(result, options);
+  if (!result.reason.empty()) {
+    result.verdict = CompareVerdict::kRegressed;
+  } else if (result.lost > result.gained) {
+    result.verdict = CompareVerdict::kInconclusive;
+    result.reason = fmt::format("{} instances lost, {} gained, which may be chance (p = {:.2g})", result.lost,
+                                result.gained, result.success_p);
+  } else if (result.differing > 0) {
+    result.verdict = CompareVerdict::kChanged;
+    result.reason = fmt::format("{} of {} plannings gave another result, none of it worse", result.differing,
+                                result.compared);
+  } else {
+    result.reason = fmt::format("all {} plannings gave the same", result.compared);
+  }
+  return result;
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,64 @@
+#include "bench/compare/exact.hpp"
+
+#include <fmt/format.h>
+
+namespace sipplab::bench {
+namespace {
+
+bool clock_struck(const db::ResultRow& row) {
+  return row.status == db::ResultStatus::kLimit && row.limit == "time";
+}
+
+std::string plan_text(const db::ResultRow& row) {
+  return fmt::format("plan {:016x}, flowtime {:.2f}", row.plan_hash.value_or(0), row.flowtime_s.value_or(0));
+}
+
+std::string work_text(const db::ResultRow& row) {
+  return fmt::format("{} tries, {} expansions, {} generations", row.tries, row.expansions, row.generations);
+}
+
+std::string validity_text(const db::ResultRow& row) {
+  if (row.status == db::ResultStatus::kInvalid) return row.message.empty() ? "invalid" : row.message;
+  return std::string(db::name(row.status));
+}
+
+}  // namespace
+
+std::string_view name(DifferenceKind kind) {
+  switch (kind) {
+    case DifferenceKind::kStatus:
+      return "status";
+    case DifferenceKind::kValidity:
+      return "validity";
+    case DifferenceKind::kPlan:
+      return "plan";
+    case DifferenceKind::kWork:
+      return "work";
+    case DifferenceKind::kRepetition:
+      return "repetition";
+  }
+  return "unknown";
+}
+
+std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head) {
+  const bool base_invalid = base.status == db::ResultStatus::kInvalid;
+  const bool head_invalid = head.status == db::ResultStatus::kInvalid;
+  if (base_invalid != head_invalid) {
+    return Difference{DifferenceKind::kValidity, validity_text(base), validity_text(head)};
+  }
+  if (base.status != head.status) {
+    return Difference{DifferenceKind::kStatus, std::string(db::name(base.status)),
+                      std::string(db::name(head.status))};
+  }
+  if (clock_struck(base) || clock_struck(head)) return std::nullopt;
+  if (base.plan_hash != head.plan_hash) {
+    return Difference{DifferenceKind::kPlan, plan_text(base), plan_text(head)};
+  }
+  if (base.tries != head.tries || base.expansions != head.expansions ||
+      base.generations != head.generations) {
+    return Difference{DifferenceKind::kWork, work_text(base), work_text(head)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace sipplab::bench

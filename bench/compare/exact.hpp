@@ -1,0 +1,33 @@
+// The exact tier: the same instance, options and seed must give the same status, plan and
+// counts of work, whatever the machine. A difference is a change of behaviour.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "db/records.hpp"
+
+namespace sipplab::bench {
+
+enum class DifferenceKind {
+  kStatus,      ///< solved by one, not by the other
+  kValidity,    ///< a plan that the validator rejected, in one of them
+  kPlan,        ///< another plan
+  kWork,        ///< the same plan, found with other expansions, generations or tries
+  kRepetition,  ///< a build that differs from itself when it plans again
+};
+/// "status", "validity", "plan", "work", "repetition".
+std::string_view name(DifferenceKind kind);
+
+struct Difference {
+  DifferenceKind kind = DifferenceKind::kPlan;
+  std::string base;  ///< "solved, flowtime 286.12"
+  std::string head;
+};
+
+/// What differs; a plan that differs says nothing about its work. None where all is alike.
+/// Results that a clock cut short (limit "time") are alike in status alone.
+std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head);
+
+}  // namespace sipplab::bench

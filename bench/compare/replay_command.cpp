@@ -1,0 +1,60 @@
+#include "bench/compare/replay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// The number behind " key:" in "warehouse agents:64 seed:1 index:3".
+std::optional<std::uint64_t> number_after(std::string_view text, std::string_view key) {
+  const std::size_t at = text.find(key);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = text.substr(at + key.size());
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end == digits.data()) return std::nullopt;
+  return value;
+}
+
+std::string planner_flags(const db::CaseInfo& parameters) {
+  std::string flags =
+      fmt::format("--ssi {} --reschedule {} --order {} --connectedness {}", format_ssi(parameters.ssi_s),
+                  parameters.reschedule, parameters.order, parameters.connectedness);
+  if (!parameters.any_angle) flags += " --no-any-angle";
+  flags += fmt::format(" --seed {}", parameters.seed);
+  if (parameters.max_restarts < db::kNoCountLimit) {
+    flags += fmt::format(" --max-restarts {}", parameters.max_restarts);
+  }
+  if (parameters.max_expansions < db::kNoCountLimit) {
+    flags += fmt::format(" --max-expansions {}", parameters.max_expansions);
+  }
+  if (!std::isinf(parameters.time_limit_s)) {
+    flags += fmt::format(" --time-limit {}", format_ssi(parameters.time_limit_s));
+  }
+  return flags;
+}
+
+}  // namespace
+
+std::string replay_command(const db::CaseInfo& parameters, const std::string& instance_name) {
+  const std::optional<std::uint64_t> index = number_after(instance_name, " index:");
+  const std::optional<std::uint64_t> seed = number_after(instance_name, " seed:");
+  if (parameters.map_spec == "files" || !index || !seed) {
+    return fmt::format("sipplab plan --instance {} {}", instance_name, planner_flags(parameters));
+  }
+  return fmt::format(
+      "sipplab generate --map {} --agents {} --seed {} --count {} -o replay && sipplab plan --instance "
+      "replay/{}.xml {}",
+      parameters.map_spec, parameters.robots, *seed, *index + 1, *index, planner_flags(parameters));
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,14 @@
+// The command that plans one instance of the history again.
+#pragma once
+
+#include <string>
+
+#include "db/records.hpp"
+
+namespace sipplab::bench {
+
+/// "sipplab generate ... && sipplab plan ..." for an instance that was generated, "sipplab plan
+/// --instance ..." for one that was read from a file. `instance_name` is the history's.
+std::string replay_command(const db::CaseInfo& parameters, const std::string& instance_name);
+
+}  // namespace sipplab::bench

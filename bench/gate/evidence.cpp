@@ -1,0 +1,157 @@
+#include "bench/gate/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "bench/compare/holm.hpp"
+#include "db/statistics/statistics.hpp"
+#include "planner/core/random.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double median(const std::vector<double>& values) { return db::statistics::median(values).value_or(0); }
+
+/// P(X >= k) of n fair coins.
+double at_least(std::size_t k, std::size_t n) {
+  if (k == 0) return 1;
+  if (2 * k > n) return db::statistics::sign_test(k, n - k).value_or(2) / 2;
+  return 1 - at_least(n - k + 1, n);
+}
+
+/// Fewest of n pairs above zero that reach the level; n + 1 where none does.
+std::size_t needed_above(std::size_t n, double level) {
+  std::size_t k = n + 1;
+  while (k > 0 && at_least(k - 1, n) <= level) --k;
+  return k;
+}
+
+std::vector<double> centred(const std::vector<double>& values) {
+  const double middle = median(values);
+  std::vector<double> rest;
+  for (const double value : values) rest.push_back(value - middle);
+  return rest;
+}
+
+/// The slowdown from which on a look at these pairs flags: enough of them above zero, and
+/// their median above the floor.
+double critical_slowdown(std::vector<double> pairs, double level, double floor) {
+  const std::size_t needed = needed_above(pairs.size(), level);
+  if (needed > pairs.size()) return kInfinity;
+  std::sort(pairs.begin(), pairs.end());
+  return std::max(-pairs[pairs.size() - needed], floor - median(pairs));
+}
+
+}  // namespace
+
+double interquartile_mean(std::vector<double> values) {
+  if (values.empty()) return 0;
+  constexpr std::size_t kQuarters = 4;
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::ptrdiff_t>(values.size() / kQuarters);
+  const double sum = std::accumulate(values.begin() + cut, values.end() - cut, 0.0);
+  return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - 2 * cut);
+}
+
+double slower_p_value(const std::vector<double>& values) {
+  const auto above =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](double v) { return v > 0; }));
+  const auto below =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](double v) { return v < 0; }));
+  return at_least(above, above + below);
+}
+
+double upper_bound(std::vector<double> values) {
+  const std::size_t needed = needed_above(values.size(), kBoundLevel);
+  if (needed > values.size()) return kInfinity;
+  std::sort(values.begin(), values.end());
+  return values[needed - 1];
+}
+
+double standard_error(const std::vector<double>& values, std::size_t pairs) {
+  if (values.size() < 2 || pairs == 0) return 0;
+  constexpr double kDeviationOverMad = 1.4826;  // of normal values
+  constexpr double kMedianOverMean = 1.2533;    // the median scatters by sqrt(pi / 2) more
+  std::vector<double> distances = centred(values);
+  for (double& distance : distances) distance = std::abs(distance);
+  return kMedianOverMean * kDeviationOverMad * median(distances) / std::sqrt(static_cast<double>(pairs));
+}
+
+double floor_from(double standard_error) {
+  return std::max(kLeastFloor, kFloorInStandardErrors * standard_error);
+}
+
+std::string_view name(RowVerdict verdict) {
+  switch (verdict) {
+    case RowVerdict::kEquivalent:
+      return "equivalent";
+    case RowVerdict::kInconclusive:
+      return "inconclusive";
+    case RowVerdict::kRegressed:
+      return "regressed";
+  }
+  return "unknown";
+}
+
+std::vector<Suspicion> suspect(const std::vector<std::vector<double>>& rows,
+                               const std::vector<double>& floors, double tolerance) {
+  std::vector<double> p_values;
+  for (const std::vector<double>& pairs : rows) p_values.push_back(slower_p_value(pairs));
+  const std::vector<double> adjusted = holm(p_values);
+  std::vector<Suspicion> suspicions;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    Suspicion suspicion;
+    suspicion.effect = median(rows[row]);
+    suspicion.p_value = adjusted[row];
+    suspicion.flagged = adjusted[row] <= kSuspicionLevel && suspicion.effect > floors[row];
+    suspicion.bounded = upper_bound(rows[row]) < tolerance;
+    suspicions.push_back(suspicion);
+  }
+  return suspicions;
+}
+
+Confirmation confirm(const Suspicion& suspicion, const std::vector<double>& first,
+                     const std::vector<double>& fresh, double floor, double tolerance) {
+  Confirmation confirmation;
+  confirmation.effect = median(fresh);
+  confirmation.p_value = slower_p_value(fresh);
+  if (suspicion.flagged && confirmation.p_value <= kConfirmationLevel && confirmation.effect > floor) {
+    confirmation.verdict = RowVerdict::kRegressed;
+    return confirmation;
+  }
+  std::vector<double> all = first;
+  all.insert(all.end(), fresh.begin(), fresh.end());
+  confirmation.verdict = upper_bound(all) < tolerance ? RowVerdict::kEquivalent : RowVerdict::kInconclusive;
+  return confirmation;
+}
+
+double detectable(const std::vector<double>& pairs, const GatePlan& plan, double floor) {
+  constexpr int kDraws = 4000;
+  constexpr double kPower = 0.95;
+  constexpr std::uint64_t kSeed = 1;
+  if (pairs.size() < 2 || plan.rows == 0) return kInfinity;
+  const std::vector<double> rest = centred(pairs);
+  Random random(kSeed);
+  const auto draw = [&rest, &random](std::size_t count) {
+    std::vector<double> drawn;
+    for (std::size_t i = 0; i < count; ++i) {
+      drawn.push_back(rest[static_cast<std::size_t>(random.below(rest.size()))]);
+    }
+    return drawn;
+  };
+  // Holm's strictest step: the row may be the only one that is slower.
+  const double level = kSuspicionLevel / static_cast<double>(plan.rows);
+  std::vector<double> critical;
+  for (int i = 0; i < kDraws; ++i) {
+    const double first = critical_slowdown(draw(plan.pairs), level, floor);
+    const double fresh = critical_slowdown(draw(plan.fresh_pairs), kConfirmationLevel, floor);
+    critical.push_back(std::max(first, fresh));
+  }
+  return db::statistics::quantile(critical, kPower).value_or(kInfinity);
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,81 @@
+// What the gate makes of its measurements: plain functions of numbers. A slowdown travels as
+// the logarithm of head's time over base's: 0.03 is 3 % slower, -0.03 faster.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace sipplab::bench {
+
+/// Rises when measuring or judging changes in a way that makes older noise worthless.
+inline constexpr int kGateMethod = 1;
+
+/// Chance of suspecting some row of a comparison of equal builds, before fresh pairs are asked.
+inline constexpr double kSuspicionLevel = 0.02;
+/// Chance that fresh pairs confirm what is not there.
+inline constexpr double kConfirmationLevel = 0.05;
+/// One-sided confidence of "at most so much slower".
+inline constexpr double kBoundLevel = 0.05;
+/// Smaller effects never fail a build, however certain: moving code about without changing it,
+/// as any edit does, shifts times by as much.
+inline constexpr double kLeastFloor = 0.01;
+/// The floor in standard errors of a comparison of equal builds.
+inline constexpr double kFloorInStandardErrors = 3;
+
+/// Mean of the middle half; 0 for no values. For adjacent plannings it scatters half as much
+/// from pair to pair as the median over instances of medians does.
+double interquartile_mean(std::vector<double> values);
+
+/// Probability of at least so many values above zero where above and below are equally
+/// likely; 1 for no values. Zeros are left out.
+double slower_p_value(const std::vector<double>& values);
+
+/// With confidence 1 - kBoundLevel the median of the distribution that the values come from
+/// is not above this; infinity for fewer than 5 values.
+double upper_bound(std::vector<double> values);
+
+/// Standard error of a comparison, the median over `pairs` of numbers that scatter like
+/// `values`; from the median distance to their median, so that a few wild pairs say little.
+double standard_error(const std::vector<double>& values, std::size_t pairs);
+
+double floor_from(double standard_error);
+
+/// What is judged: a cell, or all cells together.
+enum class RowVerdict { kEquivalent, kInconclusive, kRegressed };
+/// "equivalent", "inconclusive", "regressed".
+std::string_view name(RowVerdict verdict);
+
+struct Suspicion {
+  double effect = 0;   ///< median over pairs
+  double p_value = 1;  ///< Holm's
+  bool flagged = false;
+  bool bounded = false;  ///< slower than the tolerance is ruled out
+};
+
+/// First look, over the pairs of all rows. `floors`: one for each row.
+std::vector<Suspicion> suspect(const std::vector<std::vector<double>>& rows,
+                               const std::vector<double>& floors, double tolerance);
+
+struct Confirmation {
+  double effect = 0;
+  double p_value = 1;
+  RowVerdict verdict = RowVerdict::kInconclusive;
+};
+
+/// Second look at one row, with fresh pairs.
+Confirmation confirm(const Suspicion& suspicion, const std::vector<double>& first,
+                     const std::vector<double>& fresh, double floor, double tolerance);
+
+/// How many pairs each look takes.
+struct GatePlan {
+  std::size_t pairs = 0;
+  std::size_t fresh_pairs = 0;
+  std::size_t rows = 0;
+};
+
+/// The smallest slowdown that is found in 95 of 100 comparisons, when pairs scatter as in
+/// `pairs` (drawn again and again, seeded). Infinity for fewer than 2 pairs.
+double detectable(const std::vector<double>& pairs, const GatePlan& plan, double floor);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,112 @@
+#include "bench/gate/gate_cases.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "bench/compare/case_words.hpp"
+#include "bench/compare/replay_command.hpp"
+#include "planner/io/write_instance.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// Every kind of case once: what the timed cells leave out.
+constexpr const char* kExactSuite = "smoke";
+
+bool write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  return file.good();
+}
+
+}  // namespace
+
+Expected<GateCases, std::string> GateCases::make(const std::string& suite, std::uint64_t seed,
+                                                 bool timed_only) {
+  GateCases cases;
+  std::string pattern = (std::filesystem::temp_directory_path() / "sipplab-gate-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    return Unexpected{std::filesystem::temp_directory_path().string() +
+                      ": no folder can be made in it, expected a place for temporary files"};
+  }
+  cases.folder_ = pattern;
+  std::string error = cases.add_suite(suite, seed, true);
+  if (error.empty() && !timed_only && suite != kExactSuite) error = cases.add_suite(kExactSuite, seed, false);
+  if (!error.empty()) return Unexpected{error};
+  return cases;
+}
+
+GateCases::GateCases(GateCases&& other) noexcept
+    : folder_(std::exchange(other.folder_, {})),
+      files_(std::move(other.files_)),
+      hashes_(std::move(other.hashes_)),
+      cells_(std::move(other.cells_)),
+      jobs_(std::move(other.jobs_)) {}
+
+GateCases::~GateCases() {
+  std::error_code ignored;
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed) {
+  SweepRequest request;
+  request.suite = find_suite(name);
+  if (request.suite == nullptr) return fmt::format("no suite '{}'", name);
+  request.time_limit_s = db::kNoTimeLimit;  // restarts limit these suites; a clock would change results
+  request.seed = seed;
+  Expected<ExpandedSweep, std::string> sweep = expand(request);
+  if (!sweep) return sweep.error();
+
+  std::map<std::string, std::size_t> known;  // content hash to file
+  for (std::size_t i = 0; i < hashes_.size(); ++i) known[hashes_[i]] = i;
+  std::vector<db::CaseInfo> rows;
+  for (const NamedCase& named : sweep->cases) rows.push_back(case_row(named.parameters));
+  const std::vector<std::string> names = case_words(rows);
+  for (std::size_t number = 0; number < rows.size(); ++number) {
+    const SweepCase& parameters = sweep->cases[number].parameters;
+    GateCell cell{names[number], rows[number], parameters.options, timed, {}};
+    for (const PreparedInstance& prepared : sweep->sets[parameters.set].instances) {
+      const auto [place, is_new] = known.emplace(prepared.row.content_hash, files_.size());
+      if (is_new) {
+        files_.push_back((folder_ / fmt::format("{}.xml", files_.size())).string());
+        hashes_.push_back(prepared.row.content_hash);
+        if (!write_file(files_.back(), write_instance_xml(prepared.instance))) {
+          return folder_.string() + ": cannot be written to, expected room for a few small files";
+        }
+      }
+      cell.jobs.push_back(jobs_.size());
+      jobs_.push_back(
+          {cells_.size(), place->second, prepared.row, replay_command(cell.row, prepared.row.name)});
+    }
+    cells_.push_back(std::move(cell));
+  }
+  return "";
+}
+
+Expected<std::size_t, std::string> GateCases::hand_over(WorkerProcess& worker, bool all) const {
+  std::size_t count = 0;
+  std::size_t files = 0;
+  for (const GateJob& job : jobs_) {
+    if (!all && !cells_[job.cell].timed) break;
+    for (; files <= job.instance; ++files) {
+      const Expected<std::string, std::string> hash = worker.load(files_[files]);
+      if (!hash) return Unexpected{hash.error()};
+      if (*hash != hashes_[files]) {
+        return Unexpected{job.row.name + ": the builds read the same file as different instances, expected " +
+                          "equal content hashes"};
+      }
+    }
+    const Expected<std::size_t, std::string> number = worker.add_job(job.instance, cells_[job.cell].options);
+    if (!number) return Unexpected{number.error()};
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace sipplab::bench

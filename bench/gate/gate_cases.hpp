@@ -1,0 +1,63 @@
+// What the gate plans: the cases of a suite, which it times, and those of the smoke suite
+// besides, of which only the results are compared.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/gate/worker_process.hpp"
+#include "bench/sweep/expand.hpp"
+#include "planner/core/expected.hpp"
+
+namespace sipplab::bench {
+
+/// One instance under one case's options. Both builds plan all of them in the same order.
+struct GateJob {
+  std::size_t cell = 0;
+  std::size_t instance = 0;  ///< which file
+  db::InstanceInfo row;
+  std::string replay;  ///< command that plans it again
+};
+
+struct GateCell {
+  std::string name;  ///< for people
+  db::CaseInfo row;
+  PlannerOptions options;
+  bool timed = false;
+  std::vector<std::size_t> jobs;
+};
+
+/// Instances lie in a folder of their own, which is removed at the end.
+class GateCases {
+ public:
+  /// Makes the instances and writes them as files. `timed_only`: without the smoke suite.
+  /// Errors: one line.
+  static Expected<GateCases, std::string> make(const std::string& suite, std::uint64_t seed,
+                                               bool timed_only = false);
+
+  GateCases(GateCases&& other) noexcept;
+  GateCases(const GateCases&) = delete;
+  GateCases& operator=(const GateCases&) = delete;
+  GateCases& operator=(GateCases&&) = delete;
+  ~GateCases();
+
+  const std::vector<GateCell>& cells() const { return cells_; }
+  const std::vector<GateJob>& jobs() const { return jobs_; }
+
+  /// Tells a worker all instances and jobs, so that both number them alike; `all` adds those
+  /// that are not timed. Errors: one line.
+  Expected<std::size_t, std::string> hand_over(WorkerProcess& worker, bool all) const;
+
+ private:
+  GateCases() = default;
+  std::string add_suite(const std::string& name, std::uint64_t seed, bool timed);
+
+  std::filesystem::path folder_;
+  std::vector<std::string> files_;
+  std::vector<std::string> hashes_;
+  std::vector<GateCell> cells_;
+  std::vector<GateJob> jobs_;  ///< those of timed cells first
+};
+
+}  // namespace sipplab::bench

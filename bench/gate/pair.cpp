@@ -1,0 +1,103 @@
+#include "bench/gate/pair.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "bench/compare/exact.hpp"
+#include "bench/sweep/interrupt.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// A planning that takes no time at all has no logarithm.
+constexpr std::int64_t kShortestNs = 1;
+
+double log_ratio(const WorkerAnswer& base, const WorkerAnswer& head) {
+  return std::log(static_cast<double>(std::max(head.cpu_ns, kShortestNs)) /
+                  static_cast<double>(std::max(base.cpu_ns, kShortestNs)));
+}
+
+std::vector<std::size_t> timed_jobs(const GateCases& cases, const std::vector<bool>& wanted) {
+  std::vector<std::size_t> jobs;
+  for (std::size_t cell = 0; cell < cases.cells().size(); ++cell) {
+    if (!wanted[cell]) continue;
+    jobs.insert(jobs.end(), cases.cells()[cell].jobs.begin(), cases.cells()[cell].jobs.end());
+  }
+  return jobs;
+}
+
+}  // namespace
+
+Expected<WorkerPair, std::string> start_pair(const GateBuilds& builds, const GateCases& cases, bool all,
+                                             Random& random) {
+  const std::vector<int> cores = allowed_cores();
+  std::optional<int> core;
+  if (!cores.empty()) core = cores[static_cast<std::size_t>(random.below(cores.size()))];
+  const WorkerProcess::Start base_start{builds.base, "base", core, {}};
+  const WorkerProcess::Start head_start{builds.head, "head", core, builds.head_extras};
+  const bool head_first = random.below(2) == 1;
+  auto first = WorkerProcess::start(head_first ? head_start : base_start);
+  if (!first) return Unexpected{first.error()};
+  auto second = WorkerProcess::start(head_first ? base_start : head_start);
+  if (!second) return Unexpected{second.error()};
+  for (WorkerProcess* worker : {&*first, &*second}) {
+    const auto done = cases.hand_over(*worker, all);
+    if (!done) return Unexpected{done.error()};
+  }
+  if (head_first) return WorkerPair{std::move(*second), std::move(*first)};
+  return WorkerPair{std::move(*first), std::move(*second)};
+}
+
+Expected<FirstAnswers, std::string> plan_all(WorkerPair& workers, const GateCases& cases) {
+  FirstAnswers answers;
+  for (std::size_t job = 0; job < cases.jobs().size(); ++job) {
+    const auto base = workers.base.plan(job, true);
+    if (!base) return Unexpected{base.error()};
+    const auto head = workers.head.plan(job, true);
+    if (!head) return Unexpected{head.error()};
+    answers.base.push_back(base->row);
+    answers.head.push_back(head->row);
+    if (interrupted_by() != 0) return Unexpected{std::string("interrupted")};
+  }
+  return answers;
+}
+
+Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases& cases,
+                                           const std::vector<bool>& wanted, const FirstAnswers& expected,
+                                           const PairBudget& budget, Random& random) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  PairTimes times;
+  times.log_ratios.resize(cases.cells().size());
+  std::vector<std::size_t> jobs = timed_jobs(cases, wanted);
+  const auto note_repetition = [&times](const db::ResultRow& before, const db::ResultRow& now,
+                                        std::size_t job, bool head) {
+    // A plan that the validator rejected was checked the first time only.
+    if (before.status == db::ResultStatus::kInvalid || !difference(before, now)) return;
+    if (times.unrepeatable_job) return;
+    times.unrepeatable_job = job;
+    times.unrepeatable_head = head;
+  };
+  for (int round = 0; round < budget.fewest_rounds ||
+                      std::chrono::duration<double>(Clock::now() - begin).count() < budget.seconds;
+       ++round) {
+    random.shuffle(jobs);
+    for (const std::size_t job : jobs) {
+      const bool head_first = random.below(2) == 1;
+      auto first = (head_first ? workers.head : workers.base).plan(job, false);
+      if (!first) return Unexpected{first.error()};
+      auto second = (head_first ? workers.base : workers.head).plan(job, false);
+      if (!second) return Unexpected{second.error()};
+      const WorkerAnswer& base = head_first ? *second : *first;
+      const WorkerAnswer& head = head_first ? *first : *second;
+      note_repetition(expected.base[job], base.row, job, false);
+      note_repetition(expected.head[job], head.row, job, true);
+      times.log_ratios[cases.jobs()[job].cell].push_back(log_ratio(base, head));
+    }
+    if (interrupted_by() != 0) return Unexpected{std::string("interrupted")};
+  }
+  return times;
+}
+
+}  // namespace sipplab::bench

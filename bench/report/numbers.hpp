@@ -1,0 +1,18 @@
+// Numbers for people.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sipplab::bench {
+
+/// Four significant digits: "0.8571", "12.34", "1.2e+06".
+std::string short_number(double value);
+/// With its unit: seconds become ms or us where that reads better.
+std::string with_unit(double value, std::string_view unit);
+/// "+3.1 %", "-12 %"; of a rate's difference "+3.1 points".
+std::string signed_share(double share, bool points);
+/// "3", "2.5", "inf".
+std::string ssi_text(double ssi_s);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,310 @@
+// The report as one HTML page.
+#include "bench/report/page.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "bench/report/numbers.hpp"
+#include "bench/report/trend_text.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+constexpr std::size_t kShortUuid = 8;
+constexpr std::size_t kHashLength = 10;
+constexpr std::size_t kMinuteLength = 16;  // "2026-01-31T12:00"
+/// A time that changes by less than this is not worth colour: what a quiet machine repeats.
+constexpr double kNotableTimeShare = 0.05;
+constexpr double kNotableCostShare = 0.005;
+
+constexpr const char* kStyle = R"css(
+:root { color-scheme: light dark; --line: #8884; --good: #007a4d; --bad: #b33c00; --soft: #8881; }
+@media (prefers-color-scheme: dark) { :root { --good: #4fd69c; --bad: #ff9a66; } }
+body { font: 15px/1.45 system-ui, sans-serif; max-width: 1180px; margin: 2em auto; padding: 0 1.2em; }
+h1 { font-size: 1.5em; margin-bottom: 0.2em; } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid var(--line); }
+p.note { opacity: 0.75; margin: 0.4em 0; }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
+th, td { padding: 3px 10px; text-align: left; border-bottom: 1px solid var(--line); white-space: nowrap; }
+td.wrap { white-space: normal; } th { font-weight: 600; } td.n, th.n { text-align: right; }
+tbody tr:hover { background: var(--soft); }
+.scroll { overflow-x: auto; } .good { color: var(--good); } .bad { color: var(--bad); font-weight: 600; }
+.charts { display: flex; flex-wrap: wrap; gap: 12px; } .charts svg { max-width: 100%; height: auto; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: 2px 1em; margin: 0; } dt { opacity: 0.7; } dd { margin: 0; }
+nav a { margin-right: 1em; }
+)css";
+
+std::string minute(const std::string& utc) {
+  std::string text = utc.substr(0, kMinuteLength);
+  const std::size_t t = text.find('T');
+  if (t != std::string::npos) text[t] = ' ';
+  return text;
+}
+
+struct Cell {
+  std::string text;
+  std::string style;  ///< class
+};
+
+class Page {
+ public:
+  explicit Page(const ReportData& data) : data_(data) {}
+
+  std::string write(const std::vector<DensityChart>& charts) {
+    const db::RunSummary& run = data_.run.run;
+    text_ = fmt::format(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<title>sipplab: run {}</title>\n<style>{}</style>\n</head>\n<body>\n",
+        run.uuid.substr(0, kShortUuid), kStyle);
+    text_ +=
+        fmt::format("<h1>Suite {}, run {}</h1>\n", xml_escaped(run.suite), run.uuid.substr(0, kShortUuid));
+    text_ +=
+        "<nav><a href=\"#density\">density</a><a href=\"#base\">against the base</a><a "
+        "href=\"#flips\">flips</a>"
+        "<a href=\"#trends\">trends</a><a href=\"#properties\">properties</a><a "
+        "href=\"#fuzzing\">fuzzing</a></nav>\n";
+    facts();
+    density(charts);
+    against_base();
+    flips();
+    trends();
+    properties();
+    fuzzing();
+    return text_ + "</body>\n</html>\n";
+  }
+
+ private:
+  void section(const char* id, const char* title) {
+    text_ += fmt::format("<h2 id=\"{}\">{}</h2>\n", id, title);
+  }
+  void note(const std::string& words) {
+    text_ += fmt::format("<p class=\"note\">{}</p>\n", xml_escaped(words));
+  }
+  void fact(const std::string& name, const std::string& value) {
+    if (!value.empty()) text_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, xml_escaped(value));
+  }
+
+  static std::string version(const db::RunSummary& run) {
+    if (!run.commit_hash) return "no commit";
+    return fmt::format("{}{} {}", run.commit_hash->substr(0, kHashLength),
+                       run.dirty ? "+ (uncommitted changes)" : "", run.commit_subject.value_or(""));
+  }
+
+  void facts() {
+    const db::RunSummary& run = data_.run.run;
+    text_ += "<dl>\n";
+    fact("run", run.uuid + ", " + run.status);
+    fact("started", minute(run.started_utc) + " UTC");
+    fact("commit", version(run));
+    fact("branch", run.branch);
+    fact("build", run.compiler + ", " + run.build_type);
+    fact("machine", run.host + ", " + run.cpu_model);
+    fact("command", run.command_line);
+    fact("results", fmt::format("{} in {} cases, {} solved, {} invalid", run.results, run.cases, run.solved,
+                                run.invalid));
+    if (run.excluded_reason) fact("excluded", *run.excluded_reason);
+    if (data_.base) {
+      fact("base", fmt::format("{}, {} UTC, {}", data_.base->run.uuid.substr(0, kShortUuid),
+                               minute(data_.base->run.started_utc), version(data_.base->run)));
+    }
+    text_ += "</dl>\n";
+  }
+
+  void density(const std::vector<DensityChart>& charts) {
+    section("density", "Success and runtime by number of robots");
+    if (charts.empty()) note("This run has no finished case.");
+    if (data_.base) note("Dashed: the base.");
+    text_ += "<div class=\"charts\">\n";
+    for (const DensityChart& density : charts) text_ += svg(density.chart, SvgUse::kInline);
+    text_ += "</div>\n";
+  }
+
+  void open_table(const std::vector<std::string>& heading, const std::string& numbers) {
+    text_ += "<div class=\"scroll\"><table><thead><tr>";
+    for (std::size_t i = 0; i < heading.size(); ++i) {
+      text_ += fmt::format("<th{}>{}</th>", numbers[i] == 'n' ? " class=\"n\"" : "", heading[i]);
+    }
+    text_ += "</tr></thead><tbody>\n";
+  }
+  void row(const std::vector<Cell>& cells, const std::string& numbers) {
+    text_ += "<tr>";
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      std::string style = numbers[i] == 'n' ? "n" : numbers[i] == 'w' ? "wrap" : "";
+      if (!cells[i].style.empty()) style += (style.empty() ? "" : " ") + cells[i].style;
+      text_ += fmt::format("<td{}>{}</td>", style.empty() ? "" : " class=\"" + style + "\"",
+                           xml_escaped(cells[i].text));
+    }
+    text_ += "</tr>\n";
+  }
+  void close_table() { text_ += "</tbody></table></div>\n"; }
+
+  static std::string shown(const db::Value& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+    if (const auto* real = std::get_if<double>(&value)) return short_number(*real);
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    return "-";
+  }
+  static double real(const db::Value& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+    const auto* number = std::get_if<double>(&value);
+    return number == nullptr ? std::nan("") : *number;
+  }
+  /// "+3.1 %", good where it fell.
+  static Cell ratio(const db::Value& value, double notable) {
+    const double share = real(value) - 1;
+    if (std::isnan(share)) return {"-", ""};
+    return {signed_share(share, false), share > notable ? "bad" : share < -notable ? "good" : ""};
+  }
+
+  void against_base() {
+    section("base", "Run against base");
+    if (!data_.base) return note("No earlier run of this suite: nothing to compare with.");
+    if (data_.cells.rows.empty()) return note("The two runs have no case in common.");
+    note(
+        "Instance by instance. Different: instances with another status, plan or number of expansions. Time: "
+        "median of the "
+        "instances' ratios, on one machine and compiler only. Flowtime: the same over instances that both "
+        "solved. p: McNemar's "
+        "test of the flips. sipplab compare tells more; sipplab gate decides about times.");
+    const std::string kinds = "tnntttnnnnnnnnn";
+    open_table({"environment", "robots", "ssi", "re-scheduling", "order", "planner", "instances", "different",
+                "base", "run", "gained", "lost", "p", "time", "flowtime"},
+               kinds);
+    for (const auto& cell : data_.cells.rows) {
+      const double base = real(cell[8]);
+      const double head = real(cell[9]);
+      const bool flips = real(cell[10]) + real(cell[11]) > 0;
+      row({{shown(cell[0]), ""},
+           {shown(cell[1]), ""},
+           {shown(cell[2]), ""},
+           {shown(cell[3]), ""},
+           {shown(cell[4]), ""},
+           {shown(cell[5]), ""},
+           {shown(cell[6]), ""},
+           {shown(cell[7]), ""},
+           {fmt::format("{:.1f} %", base * 100), ""},
+           {fmt::format("{:.1f} %", head * 100), head < base   ? "bad"
+                                                 : head > base ? "good"
+                                                               : ""},
+           {shown(cell[10]), ""},
+           {shown(cell[11]), ""},
+           {flips ? short_number(real(cell[12])) : "-", ""},
+           ratio(cell[13], kNotableTimeShare),
+           ratio(cell[15], kNotableCostShare)},
+          kinds);
+    }
+    close_table();
+  }
+
+  /// A table of the history as it is.
+  void plain_table(const db::Table& table, const std::string& kinds, std::size_t status_column) {
+    open_table(table.columns, kinds);
+    for (const auto& values : table.rows) {
+      std::vector<Cell> cells;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        std::string text = shown(values[i]);
+        const std::string& column = table.columns[i];
+        if (column.size() > 4 && column.compare(column.size() - 4, 4, "_utc") == 0) text = minute(text);
+        std::string style;
+        if (i == status_column) {
+          const bool good = text == "passed" || text == "clean" || text == "fixed" || text == "gained";
+          style = good ? "good" : "bad";
+        }
+        cells.push_back({std::move(text), std::move(style)});
+      }
+      row(cells, kinds);
+    }
+    close_table();
+  }
+
+  void flips() {
+    section("flips", "Flips");
+    if (!data_.base) return note("No base.");
+    if (data_.flips.rows.empty()) return note("No instance is solved by one of the two runs only.");
+    plain_table(data_.flips, "ttnnttttnn", 0);
+  }
+
+  void trends() {
+    section("trends", "Trends");
+    note(
+        "Cases of this run over all versions in the history; excluded runs are left out. A dashed line marks "
+        "a change of level.");
+    for (const ReportTrend& trend : data_.trends) {
+      text_ += fmt::format("<h3>{}: {}</h3>\n", trend.metric->name, trend.metric->meaning);
+      std::string lines;
+      for (const db::TrendSeries& series : trend.series) {
+        for (const db::TrendChange& change : series.changes) {
+          const db::TrendPoint& point = series.points[change.position];
+          lines += fmt::format("<li>{} ({}, {}): {}; {}</li>\n", xml_escaped(version_name(point)),
+                               point.committed_utc.substr(0, 10), xml_escaped(point.subject),
+                               xml_escaped(series.label), xml_escaped(change_text(*trend.metric, change)));
+        }
+      }
+      bool enough = false;
+      for (const db::TrendSeries& series : trend.series) enough = enough || series.points.size() > 1;
+      if (!enough) {
+        note("One version so far.");
+        continue;
+      }
+      text_ +=
+          lines.empty() ? "<p class=\"note\">No change of level found.</p>\n" : "<ul>\n" + lines + "</ul>\n";
+      trend_charts(trend);
+    }
+  }
+
+  /// A small picture for each series that varies: those that never did have nothing to show.
+  void trend_charts(const ReportTrend& trend) {
+    text_ += "<div class=\"charts\">\n";
+    std::size_t constant = 0;
+    for (const db::TrendSeries& series : trend.series) {
+      bool varies = false;
+      for (const db::TrendPoint& point : series.points)
+        varies = varies || point.value != series.points[0].value;
+      if (!varies) {
+        ++constant;
+        continue;
+      }
+      Chart chart = trend_chart(*trend.metric, {series});
+      chart.title = series.label;
+      chart.width = 380;
+      chart.height = 200;
+      if (chart.x_ticks.size() > 2) chart.x_ticks = {chart.x_ticks.front(), chart.x_ticks.back()};
+      text_ += svg(chart, SvgUse::kInline);
+    }
+    text_ += "</div>\n";
+    if (constant > 0) note(fmt::format("{} series never changed and are not drawn.", constant));
+  }
+
+  void properties() {
+    section("properties", "Properties");
+    if (data_.properties.rows.empty())
+      return note("No property run is recorded; scripts/test --record does so.");
+    std::size_t passed = 0;
+    for (const auto& values : data_.properties.rows) passed += shown(values[2]) == "passed" ? 1U : 0U;
+    note(fmt::format("{} of {} pass at their newest run.", passed, data_.properties.rows.size()));
+    plain_table(data_.properties, "twtntt", 2);
+  }
+
+  void fuzzing() {
+    section("fuzzing", "Fuzzing");
+    if (data_.fuzz_runs.rows.empty()) {
+      note("No fuzz run is recorded.");
+    } else {
+      plain_table(data_.fuzz_runs, "tttnnnn", 1);
+    }
+    if (data_.findings.rows.empty()) return note("No finding.");
+    plain_table(data_.findings, "ntttwwttn", 2);
+  }
+
+  const ReportData& data_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string report_page(const ReportData& data, const std::vector<DensityChart>& charts) {
+  return Page(data).write(charts);
+}
+
+}  // namespace sipplab::bench

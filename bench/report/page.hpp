@@ -1,0 +1,15 @@
+// The report as one HTML page that needs nothing else: no scripts, no fonts, no pictures
+// from elsewhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/report/density.hpp"
+#include "bench/report/report_data.hpp"
+
+namespace sipplab::bench {
+
+std::string report_page(const ReportData& data, const std::vector<DensityChart>& charts);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,253 @@
+// Trends as text with sparklines, as JSON and as a chart.
+#include "bench/report/trend_text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/report/numbers.hpp"
+#include "db/aligned.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 8> kBlocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+constexpr std::size_t kWideSparkline = 72;    // fits a terminal of 80 columns
+constexpr std::size_t kNarrowSparkline = 32;  // beside the other columns of the overview
+constexpr std::size_t kHashLength = 10;
+constexpr std::size_t kDateLength = 10;
+constexpr std::size_t kSubjectLength = 48;
+/// Labels on the x axis; more would run into each other.
+constexpr std::size_t kChartLabels = 5;
+/// More lines than this are no picture.
+constexpr std::size_t kMostLines = 7;
+
+std::vector<double> values_of(const db::TrendSeries& series) {
+  std::vector<double> values;
+  for (const db::TrendPoint& point : series.points) values.push_back(point.value);
+  return values;
+}
+
+std::string shortened(const std::string& text, std::size_t length) {
+  if (text.size() <= length) return text;
+  std::size_t end = length;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // whole code points
+  return text.substr(0, end) + "...";
+}
+
+std::string full_label(const db::TrendSeries& series) {
+  return series.context.empty() ? series.label : series.label + "; " + series.context;
+}
+
+/// Changes of one version stand together: a commit that slows one case slows many.
+std::string changes_text(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series,
+                         bool contexts) {
+  std::vector<std::pair<const db::TrendPoint*, std::string>> versions;
+  for (const db::TrendSeries& one : series) {
+    for (const db::TrendChange& change : one.changes) {
+      const db::TrendPoint& point = one.points[change.position];
+      auto found = std::find_if(versions.begin(), versions.end(), [&point](const auto& version) {
+        return version.first->commit == point.commit && version.first->committed_utc == point.committed_utc &&
+               version.first->dirty == point.dirty;
+      });
+      if (found == versions.end()) found = versions.insert(found, {&point, ""});
+      found->second += "    ";
+      if (series.size() > 1) {
+        found->second += one.case_id > 0 ? fmt::format("case {}: ", one.case_id) : one.label + ": ";
+        if (contexts && !one.context.empty()) found->second += one.context + ": ";
+      }
+      found->second += change_text(metric, change) + '\n';
+    }
+  }
+  if (versions.empty()) return "no change of level found\n";
+  std::stable_sort(versions.begin(), versions.end(), [](const auto& a, const auto& b) {
+    return a.first->committed_utc < b.first->committed_utc;
+  });
+  std::string text = "changes of level:\n";
+  for (const auto& [point, lines] : versions) {
+    std::string heading =
+        fmt::format("  {} {} {}", version_name(*point), point->committed_utc.substr(0, kDateLength),
+                    db::escaped(shortened(point->subject, kSubjectLength)));
+    heading.erase(heading.find_last_not_of(' ') + 1);
+    text += heading + '\n' + lines;
+  }
+  return text;
+}
+
+/// Whether the series come from more than one machine and kind of build.
+bool has_contexts(const std::vector<db::TrendSeries>& series) {
+  return std::any_of(series.begin(), series.end(),
+                     [&series](const db::TrendSeries& one) { return one.context != series.front().context; });
+}
+
+std::string one_series(const db::TrendMetric& metric, const db::TrendSeries& series, std::size_t rows) {
+  const std::vector<double> values = values_of(series);
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::string text = fmt::format("{}{}\n\n{}\n{} to {}, {} version{}\n\n", full_label(series),
+                                 series.case_id > 0 ? fmt::format(" (case {})", series.case_id) : "",
+                                 sparkline(values, kWideSparkline), with_unit(*low, metric.unit),
+                                 with_unit(*high, metric.unit), values.size(), values.size() == 1 ? "" : "s");
+  const std::size_t begin = values.size() > rows ? values.size() - rows : 0;
+  std::vector<std::vector<std::string>> table;
+  for (std::size_t i = begin; i < series.points.size(); ++i) {
+    const db::TrendPoint& point = series.points[i];
+    const bool changes = std::any_of(series.changes.begin(), series.changes.end(),
+                                     [i](const db::TrendChange& change) { return change.position == i; });
+    table.push_back({version_name(point), point.committed_utc.substr(0, kDateLength),
+                     with_unit(point.value, metric.unit), std::to_string(point.runs), changes ? "*" : "",
+                     db::escaped(shortened(point.subject, kSubjectLength))});
+  }
+  text += db::align({"version", "date", std::string(metric.name), "runs", " ", "subject"}, table,
+                    {false, false, true, true, false, false});
+  if (begin > 0) text += fmt::format("({} older versions; --rows shows more)\n", begin);
+  return text;
+}
+
+std::string overview(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series,
+                     bool contexts) {
+  std::vector<std::vector<std::string>> table;
+  for (const db::TrendSeries& one : series) {
+    table.push_back({one.case_id > 0 ? std::to_string(one.case_id) : "-",
+                     contexts ? full_label(one) : one.label, std::to_string(one.points.size()),
+                     with_unit(one.points.front().value, metric.unit),
+                     with_unit(one.points.back().value, metric.unit), std::to_string(one.changes.size()),
+                     sparkline(values_of(one), kNarrowSparkline)});
+  }
+  return db::align({"case", "parameters", "versions", "first", "last", "changes", "history"}, table,
+                   {true, false, true, true, true, true, false});
+}
+
+Json json_number(double value) {
+  // JSON has no infinity; the word is the one that tables show.
+  return std::isinf(value) ? Json(short_number(value)) : Json(value);
+}
+
+}  // namespace
+
+std::string version_name(const db::TrendPoint& point) {
+  if (point.commit.empty()) return "no commit";
+  return point.commit.substr(0, kHashLength) + (point.dirty ? "+" : "");
+}
+
+std::string sparkline(const std::vector<double>& values, std::size_t width) {
+  if (values.empty()) return "";
+  std::vector<double> columns;
+  const std::size_t count = std::min(width, values.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * values.size() / count;
+    const std::size_t end = (i + 1) * values.size() / count;
+    double sum = 0;
+    for (std::size_t k = begin; k < end; ++k) sum += values[k];
+    columns.push_back(sum / static_cast<double>(end - begin));
+  }
+  const auto [low, high] = std::minmax_element(columns.begin(), columns.end());
+  const double span = *high - *low;
+  std::string text;
+  for (const double column : columns) {
+    const double share = span > 0 ? (column - *low) / span : 0.5;
+    text += kBlocks[std::min(kBlocks.size() - 1, static_cast<std::size_t>(share * kBlocks.size()))];
+  }
+  return text;
+}
+
+std::string change_text(const db::TrendMetric& metric, const db::TrendChange& change) {
+  const bool better = (change.after > change.before) == metric.higher_is_better;
+  return fmt::format("{} -> {} ({}, {})", with_unit(change.before, metric.unit),
+                     with_unit(change.after, metric.unit),
+                     signed_share(db::effect_of(change, metric), metric.rate), better ? "better" : "worse");
+}
+
+std::string trend_text(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series,
+                       std::size_t rows) {
+  std::string text = fmt::format("{}: {}\n", metric.name, metric.meaning);
+  const bool contexts = has_contexts(series);
+  if (series.size() == 1) {
+    text += one_series(metric, series.front(), rows);
+  } else {
+    if (!contexts && !series.front().context.empty()) text += series.front().context + '\n';
+    text += overview(metric, series, contexts);
+  }
+  return text + '\n' + changes_text(metric, series, contexts);
+}
+
+Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series) {
+  Json document;
+  document["metric"] = std::string(metric.name);
+  document["meaning"] = std::string(metric.meaning);
+  document["unit"] = std::string(metric.unit);
+  document["higher_is_better"] = metric.higher_is_better;
+  document["series"] = Json::array();
+  for (const db::TrendSeries& one : series) {
+    Json entry;
+    entry["case_id"] = one.case_id > 0 ? Json(one.case_id) : Json(nullptr);
+    entry["label"] = one.label;
+    entry["context"] = one.context;
+    entry["points"] = Json::array();
+    for (const db::TrendPoint& point : one.points) {
+      entry["points"].push_back({{"commit", point.commit.empty() ? Json(nullptr) : Json(point.commit)},
+                                 {"dirty", point.dirty},
+                                 {"subject", point.subject},
+                                 {"committed_utc", point.committed_utc},
+                                 {"started_utc", point.started_utc},
+                                 {"runs", point.runs},
+                                 {"value", json_number(point.value)}});
+    }
+    entry["changes"] = Json::array();
+    for (const db::TrendChange& change : one.changes) {
+      const db::TrendPoint& point = one.points[change.position];
+      entry["changes"].push_back({{"position", change.position},
+                                  {"commit", point.commit.empty() ? Json(nullptr) : Json(point.commit)},
+                                  {"before", change.before},
+                                  {"after", change.after},
+                                  {"effect", json_number(db::effect_of(change, metric))},
+                                  {"better", (change.after > change.before) == metric.higher_is_better},
+                                  {"p_value", change.p_value}});
+    }
+    document["series"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series) {
+  Chart chart;
+  chart.title = fmt::format("{}: {}", metric.name, metric.meaning);
+  chart.x_label = "versions, in order of history";
+  chart.y_label =
+      metric.unit.empty() ? std::string(metric.name) : fmt::format("{} [{}]", metric.name, metric.unit);
+  if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, series.front().label);
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < std::min(series.size(), kMostLines); ++i) {
+    const db::TrendSeries& one = series[i];
+    ChartLine line;
+    line.colour = static_cast<int>(i);
+    if (series.size() > 1) line.label = one.case_id > 0 ? fmt::format("case {}", one.case_id) : one.label;
+    for (std::size_t k = 0; k < one.points.size(); ++k) {
+      line.points.emplace_back(static_cast<double>(k), one.points[k].value);
+    }
+    for (const db::TrendChange& change : one.changes) {
+      // Between the points: the level is another from this one on.
+      line.marks.push_back({static_cast<double>(change.position) - 0.5,
+                            series.size() > 1 ? ""
+                                              : version_name(one.points[change.position]) + " " +
+                                                    signed_share(db::effect_of(change, metric), metric.rate),
+                            version_name(one.points[change.position]) + ": " + change_text(metric, change)});
+    }
+    if (one.points.size() > longest) {
+      longest = one.points.size();
+      chart.x_ticks.clear();
+      const std::size_t labels = std::min(kChartLabels, longest);
+      for (std::size_t k = 0; k < labels; ++k) {
+        const std::size_t at = labels == 1 ? 0 : k * (longest - 1) / (labels - 1);
+        chart.x_ticks.emplace_back(static_cast<double>(at), version_name(one.points[at]));
+      }
+    }
+    chart.lines.push_back(std::move(line));
+  }
+  return chart;
+}
+
+}  // namespace sipplab::bench

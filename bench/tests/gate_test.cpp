@@ -1,0 +1,207 @@
+// What the gate makes of numbers: exact values, how often it is wrong on simulated pairs, and
+// that what workers say reads back.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bench/gate/evidence.hpp"
+#include "bench/gate/gate_cases.hpp"
+#include "bench/gate/protocol.hpp"
+#include "bench/gate/worker.hpp"
+#include "planner/core/random.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+constexpr std::size_t kPairs = 12;
+constexpr std::size_t kFreshPairs = 8;
+constexpr std::size_t kCells = 4;
+constexpr double kTolerance = 0.05;
+
+/// Sum of twelve uniform numbers: near enough to normal, the same on every machine.
+double scatter(Random& random, double deviation) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.unit();
+  return deviation * sum;
+}
+
+/// Pairs of the four cells and of all together, as a virtual machine with company has them.
+std::vector<std::vector<double>> pairs(Random& random, std::size_t count, double slowdown) {
+  constexpr double kCellDeviation = 0.012;
+  std::vector<std::vector<double>> rows(kCells + 1);
+  for (std::size_t pair = 0; pair < count; ++pair) {
+    double sum = 0;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      rows[cell].push_back(slowdown + scatter(random, kCellDeviation));
+      sum += rows[cell].back();
+    }
+    rows[kCells].push_back(sum / kCells);
+  }
+  return rows;
+}
+
+bool alarmed(Random& random, double slowdown) {
+  const auto first = pairs(random, kPairs, slowdown);
+  const std::vector<double> floors(kCells + 1, kLeastFloor);
+  const std::vector<Suspicion> suspicions = suspect(first, floors, kTolerance);
+  const auto fresh = pairs(random, kFreshPairs, slowdown);
+  for (std::size_t row = 0; row < first.size(); ++row) {
+    if (!suspicions[row].flagged) continue;
+    const Confirmation confirmation =
+        confirm(suspicions[row], first[row], fresh[row], kLeastFloor, kTolerance);
+    if (confirmation.verdict == RowVerdict::kRegressed) return true;
+  }
+  return false;
+}
+
+int alarms(double slowdown, int trials) {
+  Random random(20);
+  int count = 0;
+  for (int i = 0; i < trials; ++i) count += alarmed(random, slowdown) ? 1 : 0;
+  return count;
+}
+
+TEST(GateEvidence, TheMiddleHalfForgetsWildValues) {
+  EXPECT_DOUBLE_EQ(interquartile_mean({1, 2, 3, 1000}), 2.5);
+  EXPECT_DOUBLE_EQ(interquartile_mean({-50, 1, 2, 2, 3, 4, 9, 1000}), 2.75);
+  EXPECT_DOUBLE_EQ(interquartile_mean({7}), 7);
+  EXPECT_DOUBLE_EQ(interquartile_mean({}), 0);
+}
+
+TEST(GateEvidence, TheSignTestIsOneSided) {
+  EXPECT_DOUBLE_EQ(slower_p_value(std::vector<double>(12, 0.1)), std::ldexp(1.0, -12));
+  EXPECT_DOUBLE_EQ(slower_p_value(std::vector<double>(12, -0.1)), 1);
+  EXPECT_DOUBLE_EQ(slower_p_value({1, 1, -1}), 0.5);
+  EXPECT_DOUBLE_EQ(slower_p_value({1, -1, -1}), 0.875);
+  EXPECT_DOUBLE_EQ(slower_p_value({0, 0}), 1);
+}
+
+TEST(GateEvidence, TheBoundIsAnOrderStatistic) {
+  // Of 12 values the 10th: P(10 or more of 12 coins) = 79 / 4096.
+  EXPECT_DOUBLE_EQ(upper_bound({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}), 10);
+  EXPECT_DOUBLE_EQ(upper_bound({1, 2, 3, 4, 5}), 5);  // 1 / 32
+  EXPECT_TRUE(std::isinf(upper_bound({1, 2, 3, 4})));
+}
+
+TEST(GateEvidence, SmallEffectsAreNoSuspicion) {
+  const std::vector<std::vector<double>> rows = {std::vector<double>(kPairs, 0.9 * kLeastFloor),
+                                                 std::vector<double>(kPairs, 1.1 * kLeastFloor)};
+  const std::vector<Suspicion> suspicions = suspect(rows, {kLeastFloor, kLeastFloor}, kTolerance);
+  EXPECT_FALSE(suspicions[0].flagged);
+  EXPECT_TRUE(suspicions[1].flagged);
+  EXPECT_TRUE(suspicions[0].bounded);
+}
+
+TEST(GateEvidence, LargeEffectsThatPairsDisagreeAboutAreNoSuspicion) {
+  std::vector<double> mixed(kPairs, 0.05);
+  for (std::size_t pair = 0; pair < 4; ++pair) mixed[pair] = -0.05;
+  const std::vector<Suspicion> suspicions = suspect({mixed}, {kLeastFloor}, kTolerance);
+  EXPECT_DOUBLE_EQ(suspicions[0].effect, 0.05);
+  EXPECT_FALSE(suspicions[0].flagged);
+  EXPECT_FALSE(suspicions[0].bounded);
+}
+
+TEST(GateEvidence, ASuspicionThatFreshPairsDenyIsNoRegression) {
+  Suspicion suspicion;
+  suspicion.flagged = true;
+  const std::vector<double> high(kPairs, 0.03);
+  const std::vector<double> nothing(kFreshPairs, -0.001);
+  EXPECT_EQ(confirm(suspicion, high, nothing, kLeastFloor, kTolerance).verdict, RowVerdict::kEquivalent);
+  EXPECT_EQ(confirm(suspicion, high, nothing, kLeastFloor, 0.02).verdict, RowVerdict::kInconclusive);
+  const std::vector<double> again(kFreshPairs, 0.03);
+  EXPECT_EQ(confirm(suspicion, high, again, kLeastFloor, kTolerance).verdict, RowVerdict::kRegressed);
+}
+
+TEST(GateEvidence, WithoutASuspicionNothingIsConfirmed) {
+  const std::vector<double> high(kFreshPairs, 0.2);
+  EXPECT_EQ(confirm(Suspicion(), high, high, kLeastFloor, kTolerance).verdict, RowVerdict::kInconclusive);
+}
+
+TEST(GateEvidence, EqualBuildsRaiseFewAlarms) { EXPECT_LE(alarms(0, 2000), 20); }  // 1 %
+
+TEST(GateEvidence, ThreePerCentAreFound) { EXPECT_GE(alarms(0.03, 1000), 950); }
+
+TEST(GateEvidence, AFasterHeadIsNoAlarm) { EXPECT_EQ(alarms(-0.1, 200), 0); }
+
+TEST(GateEvidence, WhatItSaysThatItSeesIsWhatItSees) {
+  Random random(7);
+  const std::vector<double> sample = pairs(random, 400, 0).back();
+  const double smallest = detectable(sample, {kPairs, kFreshPairs, kCells + 1}, kLeastFloor);
+  EXPECT_GT(smallest, kLeastFloor);
+  EXPECT_LT(smallest, 0.03);
+  const int found = alarms(smallest, 1000);
+  EXPECT_GE(found, 930);
+  EXPECT_TRUE(std::isinf(detectable(sample, {5, 5, kCells + 1}, kLeastFloor)));
+}
+
+TEST(GateEvidence, TheFloorFollowsTheNoise) {
+  EXPECT_DOUBLE_EQ(floor_from(0), kLeastFloor);
+  EXPECT_DOUBLE_EQ(floor_from(0.01), kFloorInStandardErrors * 0.01);
+  const double few = standard_error({-0.01, 0, 0.01, 5}, 4);
+  EXPECT_GT(few, 0);
+  EXPECT_LT(few, 0.02);  // the wild one says little
+}
+
+/// What a worker answers to these lines, its greeting left out.
+std::vector<std::string> served(const std::string& requests) {
+  std::istringstream in(requests);
+  std::ostringstream out;
+  serve_gate(in, out);
+  std::istringstream lines(out.str());
+  std::vector<std::string> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(line);
+  answers.erase(answers.begin());
+  return answers;
+}
+
+TEST(GateWorker, AnswersEveryLine) {
+  const std::vector<std::string> answers =
+      served("nonsense\n{}\n{\"load\": \"nowhere.xml\"}\n{\"plan\": 7}\n{\"load\": 3}\n");
+  ASSERT_EQ(answers.size(), 5U);
+  for (const std::string& answer : answers) {
+    const nlohmann::json json = nlohmann::json::parse(answer, nullptr, false);
+    EXPECT_TRUE(json.is_object() && json.contains("error")) << answer;
+  }
+}
+
+TEST(GateWorker, OptionsAndAnswersReadBack) {
+  PlannerOptions options;
+  options.ssi_s = kInfiniteSsi;
+  options.order = InitialOrder::kRandom;
+  options.rescheduling = Rescheduling::kNone;
+  options.max_restarts = 3;
+  options.seed = 9;
+  const auto read = options_from_json(nlohmann::json::parse(to_json(options).dump()));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(to_json(*read), to_json(options));
+
+  WorkerAnswer answer;
+  answer.row.status = db::ResultStatus::kSolved;
+  answer.row.plan_hash = 0xffff'ffff'ffff'fff0;
+  answer.row.flowtime_s = 0.1;
+  answer.cpu_ns = 5;
+  const auto again = answer_from_json(nlohmann::json::parse(to_json(answer).dump()));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->row.plan_hash, answer.row.plan_hash);
+  EXPECT_EQ(again->row.flowtime_s, answer.row.flowtime_s);
+  EXPECT_EQ(again->cpu_ns, 5);
+  EXPECT_FALSE(answer_from_json({{"status", "lost"}}));
+}
+
+TEST(GateCases, HoldEachTimedInstanceAndTheSmokeSuite) {
+  const auto cases = GateCases::make("gate", 1);
+  ASSERT_TRUE(cases);
+  std::size_t timed = 0;
+  for (const GateCell& cell : cases->cells()) timed += cell.timed ? cell.jobs.size() : 0;
+  EXPECT_EQ(timed, 20U);
+  EXPECT_GT(cases->jobs().size(), 100U);
+  EXPECT_EQ(cases->cells().front().name, "empty, 32 robots");
+  EXPECT_FALSE(GateCases::make("nonsense", 1));
+}
+
+}  // namespace
+}  // namespace sipplab::bench

@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# The gate and the comparison of runs, as users meet them. $1: sipplab.
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+install -m 755 "$1" "$work/sipplab"
+cd "$work" || exit 1
+sipplab=$work/sipplab
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
+export TMPDIR=$work/temporary
+mkdir "$TMPDIR"
+unset SIPPLAB_DB SIPPLAB_INJECT_SLOWDOWN SIPPLAB_INJECT_CHANGE
+
+broken=0
+complain() {
+  printf 'BROKEN: %s\n' "$*"
+  broken=$((broken + 1))
+}
+
+expect() {
+  local code=$1 got=0
+  shift
+  "$sipplab" "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err) $(tail -n 1 out))"
+}
+
+refused() {
+  local pattern=$1
+  shift
+  expect 2 "$@"
+  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $*"
+  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
+  [ ! -s out ] || complain "something on stdout: sipplab $*"
+}
+
+says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 500 "${2:-out}")"; }
+ask() { sqlite3 gate.db "$1"; }
+equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
+
+# --- gate -------------------------------------------------------------------------
+
+# As short as it gets: what is tested is what it says, not how well it measures.
+gate=(gate --base . --head ./sipplab --db gate.db --pair-seconds 0.01 --fewest-rounds 1 --timed-only)
+
+refused 'expected --base' gate --db gate.db
+refused 'no program' gate --base nowhere --head . --db gate.db
+refused 'suite' gate --base . --head . --suite paper --db gate.db
+refused 'no --head' gate --calibrate --head . --db gate.db
+printf '#!/bin/sh\nexit 0\n' >other && chmod +x other
+refused 'head build.*does not serve the gate' gate --base . --head other --db gate.db
+printf 'not a database, whatever its name says; long enough to be taken for one' >text.db
+refused 'text.db' gate --base . --head . --db text.db
+
+expect 0 gate --calibrate --comparisons 1 --pairs 5 --pair-seconds 0.01 --fewest-rounds 1 --timed-only --db gate.db
+says 'from 1 comparison of equal builds'
+says '^sees: '
+
+# The same program and the same plans: whatever the clock says, it is noise.
+expect 0 "${gate[@]}" --pairs 5 --json
+says '"verdict": "equivalent"'
+says '"calibrations": 1'
+says '"differing": 0'
+
+# A slowdown that no noise hides; only the head is given it.
+SIPPLAB_INJECT_SLOWDOWN=1 expect 1 "${gate[@]}" --treat-as-different --pairs 8 --format markdown --junit gate.xml
+says '^### Gate: regressed: slower by'
+says '^\| all cells \|'
+says '<failure message="slower by' gate.xml
+equal "$(ask 'SELECT injected_slowdown, verdict, slowdown > 0.8 FROM v_gate_runs ORDER BY started_utc DESC LIMIT 1')" "1.0|regressed|1" "the comparison in the history"
+equal "$(ask 'SELECT count(DISTINCT pairs) > 0, min(pairs) FROM v_gate_cells WHERE gate_run = (SELECT gate_run FROM v_gate_runs ORDER BY started_utc DESC LIMIT 1)')" "1|16" "pairs in the history, fresh ones included"
+
+# One instance planned otherwise: found, named, and planned again by the command that is printed.
+SIPPLAB_INJECT_CHANGE=1 expect 1 "${gate[@]}" --pairs 5
+says '^plan: empty:32x32 agents:32 seed:1 index:1$'
+says '^regressed: .* first empty:32x32 agents:32 seed:1 index:1$'
+flowtime=$(sed -n 's/.*base: plan .*flowtime //p' out | head -n 1)
+again=$(sed -n 's/^ *again: //p' out | head -n 1)
+PATH=$work:$PATH bash -c "$again" >replayed 2>&1 || complain "the printed command fails: $again"
+says "$flowtime" replayed
+SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 5 --allow-changes --tolerance 10
+says 'as allowed'
+equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'plan'")" "empty:32x32 agents:32 seed:1 index:1" "the instance in the history"
+
+[ -z "$(ls "$TMPDIR")" ] || complain "the gate left files: $(ls "$TMPDIR")"
+
+# --- compare ----------------------------------------------------------------------
+
+sweep=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --connectedness 2 --count 4 --db gate.db)
+expect 0 "${sweep[@]}"
+expect 0 "${sweep[@]}"
+runs=$(ask 'SELECT uuid FROM run ORDER BY id')
+base=$(head -n 1 <<<"$runs")
+head=$(tail -n 1 <<<"$runs")
+expect 0 compare "$base" latest --db gate.db
+says '^same: all 16 plannings gave the same'
+says '^base run '
+expect 0 compare "run:$base" "run:$head" --db gate.db --format markdown
+says '^### Comparison: same'
+
+# A run that lost one instance and found another plan for a second one.
+sqlite3 gate.db "
+  UPDATE result SET status = 1, makespan_s = NULL, flowtime_s = NULL, plan_hash = NULL, valid = NULL
+  WHERE position = 1 AND status = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id JOIN case_ ON case_.id = case_id
+    WHERE uuid = '$head' AND ssi_s = 5 AND reschedule = 'none');
+  UPDATE result SET plan_hash = 1
+  WHERE position = 0 AND status = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id JOIN case_ ON case_.id = case_id
+    WHERE uuid = '$head' AND ssi_s = 5 AND reschedule = 'none');"
+expect 3 compare "${base:0:8}" "${head:0:8}" --db gate.db --junit compare.xml
+says '^lost: warehouse agents:16 seed:1 index:1, solved -> failed'
+says '^plan: warehouse agents:16 seed:1 index:0'
+says '^inconclusive: 1 instances? lost, 0 gained'
+says '<skipped' compare.xml
+expect 1 compare "$base" "$head" --db gate.db --exact --json
+says '"verdict": "regressed"'
+python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
+
+# Nothing in common, or nothing there.
+expect 0 bench --suite smoke --map empty:8x8 --robots 2 --ssi 0 --reschedule none --order shortest --count 1 --db gate.db
+expect 4 compare "$base" latest --db gate.db
+says 'share no case' err
+refused 'expected a run, a commit or a branch' compare "$base" no-such-branch --db gate.db
+expect 0 runs --exclude "$head" --reason 'tampered with' --db gate.db
+refused 'excluded' compare "$base" "$head" --db gate.db
+refused 'nowhere.db' compare a b --db nowhere.db
+
+[ "$broken" -eq 0 ] && echo "all promises kept"
+exit "$((broken > 0))"

@@ -1,0 +1,206 @@
+#!/usr/bin/env bash
+# A golden run of the commands around the history: trend, report, merge, import, doctor, shards,
+# and every question of README's cookbook. Prints one line per promise that is broken.
+#
+#   golden_history.sh PATH_OF_SIPPLAB PATH_OF_README
+set -uo pipefail
+
+readme=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$work/build/release"
+ln -s "$(realpath "$1")" "$work/build/release/sipplab"
+cd "$work" || exit 1
+sipplab=$work/build/release/sipplab
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
+unset SIPPLAB_DB
+
+broken=0
+complain() {
+  printf 'BROKEN: %s\n' "$*"
+  broken=$((broken + 1))
+}
+expect() { # CODE ARGUMENTS...: runs sipplab into the files out and err
+  local code=$1 got=0
+  shift
+  "$sipplab" "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err))"
+}
+refused() { # PATTERN ARGUMENTS...: code 2, one line on stderr, nothing on stdout
+  local pattern=$1
+  shift
+  expect 2 "$@"
+  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $*"
+  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
+  [ ! -s out ] || complain "something on stdout: sipplab $*"
+}
+says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 400 "${2:-out}")"; }
+equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
+ask() { sqlite3 "${2:-sipplab.db}" "$1"; }
+bench() { expect 0 bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 "$@"; }
+
+# --- shards: the parts are the whole, and join up -----------------------------------------
+
+expect 0 bench --suite smoke --benchmark_list_tests
+sort out >whole
+: >parts
+for shard in 1/3 2/3 3/3; do
+  expect 0 bench --suite smoke --shard "$shard" --benchmark_list_tests
+  cat out >>parts
+done
+cmp -s whole <(sort parts) || complain "three shards are not the suite"
+refused "'4/3', expected I/N" bench --shard 4/3
+refused "no case is left" bench --suite smoke --shard 999/999
+
+bench --shard 1/2 --db a.db
+bench --shard 2/2 --db b.db
+expect 0 merge a.db b.db
+says '^a.db: 1 runs, [0-9]+ cells, [0-9]+ results'
+equal "$(ask 'SELECT group_concat(shard) FROM (SELECT shard FROM run ORDER BY shard)')" "1/2,2/2" "shards"
+equal "$(ask 'SELECT count(DISTINCT case_id) FROM cell')" "$(ask 'SELECT count(*) FROM cell')" "cases of the shards"
+before=$(ask 'SELECT count(*) FROM result')
+expect 0 merge b.db a.db --json
+says '"added": \{\}'
+equal "$(ask 'SELECT count(*) FROM result')" "$before" "results after merging again"
+equal "$(ask 'SELECT group_concat(DISTINCT origin) FROM run')" "a.db,b.db" "origins"
+refused 'merged into itself' merge sipplab.db
+refused 'none.db: no such file' merge none.db
+
+# --- a history of versions ---------------------------------------------------------------
+
+rm -f sipplab.db*
+for _ in 1 2; do bench; done
+# Ten more versions of the newest run, of which the last five solve one instance less, measured in some
+# other order. Plain SQL, as a user would: the doctor has to notice that summaries are missing.
+for version in 1 2 3 4 5 6 7 8 9 10; do
+  ask "PRAGMA foreign_keys = ON;
+    INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, first_parent_count)
+      VALUES (printf('%02d%038d', $version, 0), printf('2031-01-%02dT00:00:00Z', $version), 'Version $version', '', 100000 + $version, 0);
+    INSERT INTO run (uuid, suite, started_utc, ended_utc, status, commit_id, machine_id, build_id, branch, command_line,
+                     options, seed, time_limit_s, writer)
+      SELECT printf('00000000-0000-4000-8000-%012x', $version), suite, printf('2031-01-%02dT00:00:00.000Z', 10 + $version * 3 % 11),
+             '2031-02-01T00:00:00.000Z', 'finished', (SELECT max(id) FROM commit_), machine_id, build_id, 'main', '', options,
+             seed, time_limit_s, '' FROM run WHERE id = 2;
+    INSERT INTO cell (run_id, case_id, finished_utc, result_count)
+      SELECT (SELECT max(id) FROM run), case_id, finished_utc, result_count FROM cell WHERE run_id = 2;
+    INSERT INTO result SELECT new.id, instance_id, position, repetition,
+             iif($version > 5 AND position = 0, 1, status), planning_time_ns, makespan_s, flowtime_s, tries, expansions,
+             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message
+      FROM cell AS old JOIN result ON result.cell_id = old.id
+      JOIN cell AS new ON new.case_id = old.case_id AND new.run_id = (SELECT max(id) FROM run) WHERE old.run_id = 2;"
+done
+expect 1 doctor
+says 'cells whose summary is missing'
+says 'sipplab doctor --fix'
+expect 0 doctor --fix --json
+says '"fixed": true'
+expect 0 doctor
+says ': sound$'
+expect 0 doctor --quick
+refused 'no such file' doctor --db none.db
+
+expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
+says '▁'
+says '^  0600000000\+? 2031-01-06 Version 6$'
+says '^ .* 1 -> 0.6667 \(-33.3 points, worse\)'
+equal "$(grep -cE '^[01][0-9]0{8}\+? ' out)" 10 "versions in the table"
+grep -oE '^[01][0-9]0{8}\+? ' out | sort -c || complain "versions are not in the order of commits"
+expect 0 trend success --svg trend.svg --json
+says '"after": 0.666'
+says '<polyline' trend.svg
+says '</svg>' trend.svg
+expect 0 trend runtime --rows 3
+expect 0 trend success --case 1 --min-effect 0.5
+says 'no change of level'
+expect 4 trend success --case robots=999
+expect 4 trend property-cases
+refused 'property-cases is not of a case' trend property-cases --suite smoke
+refused "'speed', expected one of success" trend speed
+refused "'density=3', expected the number of a case" trend success --case density=3
+worst=00000000-0000-4000-8000-000000000006
+expect 0 runs --exclude "$worst" --reason 'swapping'
+expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
+grep -q '^0600000000' out && complain "an excluded run is in the trend"
+expect 0 runs --include "$worst"
+expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
+says '^0600000000'
+
+expect 0 report 00000000-0000-4000-8000-000000000007 --base 00000000-0000-4000-8000-000000000001 -o report
+says '^report/index.html$'
+says '</html>' report/index.html
+says 'Version 6' report/index.html
+says '<td class="bad">lost</td>' report/index.html
+grep -qE '(src|href)="?https?:|<script|@import|url\(' report/index.html && complain "the page asks for something from elsewhere"
+[ "$(find report -name 'success-*.svg' | wc -l)" -ge 2 ] || complain "no success curves"
+[ "$(find report -name 'runtime-*.svg' | wc -l)" -ge 2 ] || complain "no runtime curves"
+if command -v xmllint >/dev/null; then
+  xmllint --noout report/*.svg trend.svg 2>err || complain "SVG that is no XML: $(head -c 200 err)"
+fi
+expect 0 report -o report --json
+says '"base"'
+refused 'expected latest, a UUID' report xyz -o report
+refused 'is a file|File exists|Not a directory|expected a folder' report -o trend.svg/x
+
+# --- imports -----------------------------------------------------------------------------
+
+cat >report.json <<'JSON'
+{"context": {"date": "2026-01-31T13:00:00+01:00", "host_name": "elsewhere", "executable": "./sort_bench", "num_cpus": 4,
+             "library_build_type": "release"},
+ "benchmarks": [
+  {"name": "sort/8", "run_name": "sort/8", "run_type": "iteration", "repetition_index": 0, "iterations": 10,
+   "real_time": 1.5, "cpu_time": 1.25, "time_unit": "us", "items_per_second": NaN, "items": 8},
+  {"name": "sort/8", "run_name": "sort/8", "run_type": "iteration", "repetition_index": 1, "iterations": 10,
+   "real_time": 2, "cpu_time": 2, "time_unit": "us", "items": -inf},
+  {"name": "nan/inf \"quoted\"", "run_type": "iteration", "iterations": 0, "real_time": 0, "cpu_time": 0,
+   "error_occurred": true, "error_message": "no input", "time_unit": "ns"},
+  {"name": "sort/8_mean", "run_name": "sort/8", "run_type": "aggregate", "aggregate_name": "mean", "iterations": 2,
+   "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us"}]}
+JSON
+expect 0 import google-benchmark report.json --commit 0123456789abcdef --subject 'Sort faster'
+says 'suite sort_bench, 3 measurements$'
+expect 0 import google-benchmark report.json --commit 0123456789abcdef --json
+says '"known": true'
+equal "$(ask "SELECT group_concat(real_time_ns) FROM v_measurements WHERE benchmark = 'sort/8'")" 1500.0,2000.0 "imported times"
+expect 0 trend benchmark-time
+says '^sort/8, elsewhere$'
+says '0123456789  2026-01-31 +1.75 us +2 .*Sort faster'
+equal "$(ask "SELECT error FROM v_measurements WHERE benchmark LIKE 'nan/inf%'")" "no input" "imported error"
+equal "$(ask "SELECT started_utc || counters FROM v_measurements WHERE benchmark = 'sort/8' AND repetition = 0")" \
+  '2026-01-31T12:00:00.000Z{"items":8.0}' "imported time and counters"
+printf '{"context": {}\n, "benchmarks": [' >cut.json
+refused '^cut.json:2: not JSON' import google-benchmark cut.json
+echo '{"a": 1}' >other.json
+refused "no list 'benchmarks'" import google-benchmark other.json
+refused 'cannot be read' import google-benchmark none.json
+expect 0 doctor
+
+# --- questions ---------------------------------------------------------------------------
+
+expect 0 sql --list
+says '^v_run_cells: '
+expect 0 sql --list --json
+views=$(ask "SELECT count(*) FROM sqlite_schema WHERE type = 'view'")
+equal "$(grep -c '"view"' out)" "$views" "views listed"
+# No view needs more than a plain shell.
+for view in $(ask "SELECT name FROM sqlite_schema WHERE type = 'view'"); do
+  ask "SELECT * FROM $view LIMIT 3" >/dev/null 2>err || complain "sqlite3 cannot read $view: $(head -c 200 err)"
+done
+expect 0 sql 'SELECT :x + 1 AS y, :run = (SELECT uuid FROM run WHERE uuid = :run) AS known' --param x=41 --json
+says '"y": 42'
+says '"known": 1'
+refused 'no value for :x' sql 'SELECT :x'
+refused 'parameter y, expected one that stands as :y' sql 'SELECT 1' --param y=1
+refused "expected NAME=VALUE" sql 'SELECT 1' --param y
+refused 'no query' sql
+
+# Every command of the cookbook answers, and with at least one row where this history has any.
+questions=0
+while IFS= read -r line; do
+  questions=$((questions + 1))
+  bash -c "$line" >out 2>err </dev/null || complain "the cookbook's '$line': $(head -c 300 err)"
+  [[ $line == *property* || $line == *finding* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
+done < <(sed -n '/^## Ask the history/,/^## /p' "$readme" | sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p')
+[ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
+
+[ "$broken" -eq 0 ] && echo "history: everything as promised, $questions questions of the cookbook"
+exit "$((broken > 0))"

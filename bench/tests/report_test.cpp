@@ -1,0 +1,131 @@
+// Reports: what is drawn and written for people.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bench/report/chart.hpp"
+#include "bench/report/density.hpp"
+#include "bench/report/numbers.hpp"
+#include "bench/report/trend_text.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Numbers, are_as_long_as_a_person_reads) {
+  EXPECT_EQ(short_number(0.857142857), "0.8571");
+  EXPECT_EQ(short_number(123456), "123456");
+  EXPECT_EQ(short_number(kInfinity), "inf");
+  EXPECT_EQ(with_unit(0.00021, "s"), "210 us");
+  EXPECT_EQ(with_unit(0.5, "s"), "500 ms");
+  EXPECT_EQ(with_unit(-12, "s"), "-12 s");
+  EXPECT_EQ(with_unit(3, ""), "3");
+  EXPECT_EQ(signed_share(0.031, false), "+3.1 %");
+  EXPECT_EQ(signed_share(-0.2, true), "-20.0 points");
+  EXPECT_EQ(signed_share(kInfinity, false), "from 0");
+  EXPECT_EQ(ssi_text(2.5), "2.5");
+  EXPECT_EQ(ssi_text(kInfinity), "inf");
+}
+
+TEST(Sparkline, shows_low_and_high) {
+  EXPECT_EQ(sparkline({}, 10), "");
+  EXPECT_EQ(sparkline({3}, 10), sparkline({7}, 10)) << "one value has no shape";
+  EXPECT_EQ(sparkline({1, 2, 1}, 10), "▁█▁");
+  EXPECT_EQ(sparkline({1, 1, 1, 1, 5, 5, 5, 5}, 2), "▁█") << "neighbours are put together";
+}
+
+Chart sample_chart() {
+  Chart chart;
+  chart.title = "a < b & \"c\"";
+  chart.x_label = "robots";
+  chart.y_label = "share";
+  ChartLine line;
+  line.label = "ssi 3";
+  line.points = {{16, 1.0}, {32, 0.5}, {64, 0}};
+  line.marks = {{24, "1a2b", "from here on"}};
+  chart.lines.push_back(line);
+  return chart;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Charts, show_every_point_and_escape_what_is_written) {
+  const std::string picture = svg(sample_chart(), SvgUse::kFile);
+  EXPECT_EQ(count(picture, "<circle"), 3U);
+  EXPECT_EQ(count(picture, "<polyline"), 1U);
+  EXPECT_NE(picture.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+  EXPECT_NE(picture.find("from here on"), std::string::npos);
+  EXPECT_NE(picture.find(">ssi 3</text>"), std::string::npos);
+  EXPECT_EQ(picture.find("nan"), std::string::npos);
+}
+
+TEST(Charts, draw_nothing_and_single_points_and_constants) {
+  Chart chart = sample_chart();
+  chart.lines[0].points.clear();
+  EXPECT_NE(svg(chart, SvgUse::kFile).find("nothing to show"), std::string::npos);
+  for (const bool log : {false, true}) {
+    chart.log_y = log;
+    chart.lines[0].points = {{5, 2}};
+    EXPECT_EQ(svg(chart, SvgUse::kFile).find("nan"), std::string::npos);
+    chart.lines[0].points = {{5, 0}, {6, 0}};
+    EXPECT_EQ(svg(chart, SvgUse::kFile).find("nan"), std::string::npos);
+  }
+}
+
+TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
+  db::RunReport run;
+  for (const double ssi_s : {0.0, kInfinity}) {
+    for (const std::int64_t robots : {16, 32}) {
+      db::CellSummary cell;
+      cell.environment = "ware/house";
+      cell.robots = robots;
+      cell.ssi_s = ssi_s;
+      cell.reschedule = "none";
+      cell.order = "fifo";
+      cell.connectedness = 3;
+      cell.success_rate = 0.5;
+      cell.median_planning_time_s = 0.01;
+      run.cells.push_back(cell);
+    }
+  }
+  const auto charts = density_charts(run, run);
+  ASSERT_EQ(charts.size(), 2U);
+  EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-any-angle-8");
+  EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-any-angle-8");
+  ASSERT_EQ(charts[0].chart.lines.size(), 4U);
+  EXPECT_EQ(charts[0].chart.lines[2].label, "ssi inf");
+  EXPECT_TRUE(charts[0].chart.lines[3].dashed);
+  EXPECT_EQ(charts[1].chart.lines[0].points[0].second, 10) << "milliseconds";
+}
+
+TEST(TrendText, tells_versions_changes_and_sizes) {
+  db::TrendSeries series;
+  series.case_id = 7;
+  series.label = "warehouse";
+  for (int i = 0; i < 4; ++i) {
+    db::TrendPoint point;
+    point.commit = std::string(40, static_cast<char>('a' + i));
+    point.subject = "Change\tone";
+    point.runs = 1;
+    point.value = i < 2 ? 1 : 0.5;
+    series.points.push_back(point);
+  }
+  series.changes.push_back({2, 1, 0.5, 0.001});
+  const db::TrendMetric& metric = *db::find_trend_metric("success");
+  const std::string text = trend_text(metric, {series}, 2);
+  EXPECT_NE(text.find("██▁▁"), std::string::npos) << text;
+  EXPECT_NE(text.find("(2 older versions"), std::string::npos) << text;
+  EXPECT_NE(text.find("  cccccccccc  Change\\tone\n    1 -> 0.5 (-50.0 points, worse)"), std::string::npos)
+      << text;
+  const auto json = trend_json(metric, {series});
+  EXPECT_EQ(json["series"][0]["changes"][0]["effect"], -0.5);
+  EXPECT_EQ(json["series"][0]["points"].size(), 4U);
+}
+
+}  // namespace
+}  // namespace sipplab::bench

@@ -1,0 +1,290 @@
+// Sides and pairs, read from the tables: a comparison needs rows, not aggregates.
+#include "db/comparisons.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <tuple>
+
+#include "db/queries.hpp"
+#include "db/rows.hpp"
+#include "db/sqlite/statement.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using sqlite::Statement;
+
+constexpr std::string_view kReading = "looking for what to compare";
+constexpr std::size_t kShortHash = 8;
+
+bool is_hexadecimal(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || c == '-';
+  });
+}
+
+std::string counted_runs(std::size_t runs) {
+  return fmt::format("({} {})", runs, runs == 1 ? "run" : "runs");
+}
+
+Error not_found(const Database& database, std::string_view text) {
+  return {ErrorKind::kNotFound,
+          fmt::format("{}: nothing that counts is called {}, expected a run, a commit or a branch that "
+                      "`sipplab runs` lists",
+                      database.path().string(), text)};
+}
+
+/// Keys of the runs that `where` (with one parameter) leaves, oldest first.
+Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where, const std::string& value) {
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT run.id FROM run LEFT JOIN commit_ ON commit_.id = run.commit_id "
+                  "WHERE run.excluded_reason IS NULL AND {} ORDER BY run.started_utc, run.id",
+                  where),
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(value);
+  std::vector<std::int64_t> ids;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return ids;
+    ids.push_back(select->integer(0));
+  }
+}
+
+/// Hashes of commits with runs that count, at most two: the beginning may fit several.
+Result<std::vector<std::string>> commits(Database& database, const char* where, const std::string& value) {
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
+                  "WHERE run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
+                  "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
+                  where),
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(value);
+  std::vector<std::string> hashes;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return hashes;
+    hashes.push_back(select->text(0));
+  }
+}
+
+using Sides = std::vector<ComparisonSide>;
+
+Result<Sides> as_run(Database& database, const std::string& text) {
+  constexpr std::size_t kShortestPrefix = 4;
+  if (text != "latest" && (text.size() < kShortestPrefix || !is_hexadecimal(text))) return Sides{};
+  const auto uuid = resolve_run(database, text);
+  if (!uuid) {
+    if (uuid.error().kind == ErrorKind::kNotFound) return Sides{};
+    return Unexpected{uuid.error()};
+  }
+  auto ids = run_ids(database, "run.uuid = ?", *uuid);
+  if (!ids) return Unexpected{ids.error()};
+  if (ids->empty()) {
+    return Unexpected{Error{ErrorKind::kNotFound,
+                            fmt::format("{}: run {} is excluded, expected one that counts (`sipplab runs "
+                                        "--include` takes an exclusion back)",
+                                        database.path().string(), uuid->substr(0, kShortHash))}};
+  }
+  ComparisonSide side{"run " + uuid->substr(0, kShortHash), std::nullopt, std::move(*ids)};
+  const auto hashes = commits(database, "run.uuid = ?", *uuid);
+  if (!hashes) return Unexpected{hashes.error()};
+  if (!hashes->empty()) {
+    side.commit_hash = hashes->front();
+    side.title += " of commit " + hashes->front().substr(0, kShortHash);
+  }
+  return Sides{std::move(side)};
+}
+
+Result<Sides> of_commit(Database& database, const std::string& hash, const std::string& title) {
+  auto ids = run_ids(database, "commit_.hash = ?", hash);
+  if (!ids) return Unexpected{ids.error()};
+  const std::string name = title + " " + counted_runs(ids->size());
+  return Sides{{name, hash, std::move(*ids)}};
+}
+
+Result<Sides> as_commit(Database& database, const std::string& text) {
+  constexpr std::size_t kShortestPrefix = 4;
+  if (text.size() < kShortestPrefix || !is_hexadecimal(text)) return Sides{};
+  const auto hashes = commits(database, "commit_.hash LIKE ? || '%'", text);
+  if (!hashes) return Unexpected{hashes.error()};
+  if (hashes->empty()) return Sides{};
+  if (hashes->size() > 1) {
+    return Unexpected{
+        Error{ErrorKind::kBadInput, fmt::format("{}: {} fits more than one commit, expected more digits",
+                                                database.path().string(), text)}};
+  }
+  return of_commit(database, hashes->front(), "commit " + hashes->front().substr(0, kShortHash));
+}
+
+Result<Sides> as_branch(Database& database, const std::string& text) {
+  const auto hashes = commits(database, "run.branch = ?", text);
+  if (!hashes) return Unexpected{hashes.error()};
+  if (hashes->empty()) return Sides{};
+  return of_commit(database, hashes->front(),
+                   fmt::format("branch {} at {}", text, hashes->front().substr(0, kShortHash)));
+}
+
+/// A cell of one side: the newest that finished the case.
+struct CellKey {
+  std::int64_t cell = 0;
+  std::string run;
+  std::string machine;
+  std::string program;
+};
+
+Result<std::map<std::int64_t, CellKey>> newest_cells(Database& database, const ComparisonSide& side) {
+  auto select = Statement::prepare(
+      database.connection(),
+      "SELECT cell.case_id, cell.id, run.uuid, machine.fingerprint, build.binary_hash FROM cell "
+      "JOIN run ON run.id = cell.run_id JOIN machine ON machine.id = run.machine_id "
+      "JOIN build ON build.id = run.build_id WHERE cell.run_id = ?",
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  std::map<std::int64_t, CellKey> cells;
+  for (const std::int64_t run : side.run_ids) {
+    select->bind(run);
+    for (;;) {
+      const auto row = select->step();
+      if (!row) return Unexpected{row.error()};
+      if (!row.value()) break;
+      cells[select->integer(0)] = {select->integer(1), select->text(2), select->text(3), select->text(4)};
+    }
+    select->reset();
+  }
+  return cells;
+}
+
+constexpr const char* kResultColumns =
+    "{0}.status, {0}.planning_time_ns, {0}.makespan_s, {0}.flowtime_s, {0}.tries, {0}.expansions, "
+    "{0}.generations, {0}.plan_hash, {0}.limit_struck, {0}.message";
+
+ResultRow read_result(const Statement& row, int column) {
+  ResultRow result;
+  result.status = static_cast<ResultStatus>(row.integer(column++));
+  result.planning_time_ns = row.integer(column++);
+  result.makespan_s = row.optional_real(column++);
+  result.flowtime_s = row.optional_real(column++);
+  result.tries = static_cast<std::uint64_t>(row.integer(column++));
+  result.expansions = static_cast<std::uint64_t>(row.integer(column++));
+  result.generations = static_cast<std::uint64_t>(row.integer(column++));
+  if (!row.is_null(column)) result.plan_hash = static_cast<std::uint64_t>(row.integer(column));
+  ++column;
+  result.limit = row.optional_text(column++).value_or("");
+  result.message = row.optional_text(column).value_or("");
+  return result;
+}
+
+Result<std::int64_t> result_count(Database& database, std::int64_t cell) {
+  return database.connection().query_int(fmt::format("SELECT count(*) FROM result WHERE cell_id = {}", cell),
+                                         kReading);
+}
+
+Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head, PairedCell& cell) {
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
+                  "FROM result AS base JOIN result AS head ON head.cell_id = ?2 "
+                  "  AND head.instance_id = base.instance_id AND head.position = base.position "
+                  "  AND head.repetition = base.repetition "
+                  "JOIN instance ON instance.id = base.instance_id "
+                  "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
+                  fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(base, head);
+  constexpr int kBaseColumn = 4;
+  constexpr int kHeadColumn = 14;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) break;
+    PairedResult pair{select->text(0), select->text(1), read_result(*select, kBaseColumn),
+                      read_result(*select, kHeadColumn)};
+    pair.base.position = pair.head.position = select->integer(2);
+    pair.base.repetition = pair.head.repetition = select->integer(3);
+    cell.results.push_back(std::move(pair));
+  }
+  const auto base_count = result_count(database, base);
+  if (!base_count) return Unexpected{base_count.error()};
+  const auto head_count = result_count(database, head);
+  if (!head_count) return Unexpected{head_count.error()};
+  cell.base_only = static_cast<std::size_t>(*base_count) - cell.results.size();
+  cell.head_only = static_cast<std::size_t>(*head_count) - cell.results.size();
+  return Done{};
+}
+
+}  // namespace
+
+Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
+  struct Reading {
+    std::string_view prefix;
+    Result<Sides> (*read)(Database&, const std::string&);
+  };
+  constexpr Reading kReadings[] = {{"run:", as_run}, {"commit:", as_commit}, {"branch:", as_branch}};
+  const auto said = std::find_if(std::begin(kReadings), std::end(kReadings), [text](const Reading& reading) {
+    return text.substr(0, reading.prefix.size()) == reading.prefix;
+  });
+  Sides found;
+  for (const Reading& reading : kReadings) {
+    if (said != std::end(kReadings) && said->prefix != reading.prefix) continue;
+    const std::string_view name = said == std::end(kReadings) ? text : text.substr(said->prefix.size());
+    auto sides = reading.read(database, std::string(name));
+    if (!sides) return Unexpected{sides.error()};
+    found.insert(found.end(), sides->begin(), sides->end());
+  }
+  if (found.empty()) return Unexpected{not_found(database, text)};
+  if (found.size() > 1) {
+    return Unexpected{Error{ErrorKind::kBadInput,
+                            fmt::format("{}: {} fits {} and {}, expected run:, commit: or branch: before it",
+                                        database.path().string(), text, found[0].title, found[1].title)}};
+  }
+  return found.front();
+}
+
+Result<std::vector<PairedCell>> paired_cells(Database& database, const ComparisonSide& base,
+                                             const ComparisonSide& head) {
+  const auto base_cells = newest_cells(database, base);
+  if (!base_cells) return Unexpected{base_cells.error()};
+  const auto head_cells = newest_cells(database, head);
+  if (!head_cells) return Unexpected{head_cells.error()};
+  auto select = Statement::prepare(database.connection(),
+                                   fmt::format("SELECT {} FROM case_ WHERE id = ?", kCaseColumns), kReading);
+  if (!select) return Unexpected{select.error()};
+  std::vector<PairedCell> cells;
+  for (const auto& [case_key, base_cell] : *base_cells) {
+    const auto head_cell = head_cells->find(case_key);
+    if (head_cell == head_cells->end()) continue;
+    const auto row = select->bind(case_key).step();
+    if (!row) return Unexpected{row.error()};
+    PairedCell cell;
+    cell.parameters = read_case(*select, 0);
+    select->reset();
+    cell.base_run = base_cell.run;
+    cell.head_run = head_cell->second.run;
+    cell.same_machine = base_cell.machine == head_cell->second.machine;
+    cell.same_program = base_cell.program == head_cell->second.program && !base_cell.program.empty();
+    if (auto done = read_pairs(database, base_cell.cell, head_cell->second.cell, cell); !done) {
+      return Unexpected{done.error()};
+    }
+    cells.push_back(std::move(cell));
+  }
+  std::stable_sort(cells.begin(), cells.end(), [](const PairedCell& a, const PairedCell& b) {
+    const CaseInfo& x = a.parameters;
+    const CaseInfo& y = b.parameters;
+    return std::tie(x.environment, x.planner, x.any_angle, x.connectedness, x.order, x.reschedule, x.ssi_s,
+                    x.robots, x.seed) < std::tie(y.environment, y.planner, y.any_angle, y.connectedness,
+                                                 y.order, y.reschedule, y.ssi_s, y.robots, y.seed);
+  });
+  return cells;
+}
+
+}  // namespace sipplab::db

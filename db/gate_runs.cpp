@@ -1,0 +1,166 @@
+// Gate runs: written whole, read back as noise.
+#include "db/gate_runs.hpp"
+
+#include <fmt/core.h>
+
+#include "db/identity.hpp"
+#include "db/rows.hpp"
+#include "db/sqlite/statement.hpp"
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using sqlite::Connection;
+using sqlite::Statement;
+
+constexpr std::string_view kWriting = "writing a gate run";
+
+Result<std::optional<std::int64_t>> optional_commit_id(Connection& connection,
+                                                       const std::optional<CommitInfo>& commit) {
+  if (!commit) return std::optional<std::int64_t>{};
+  const auto id = commit_id(connection, *commit);
+  if (!id) return Unexpected{id.error()};
+  return std::optional<std::int64_t>{*id};
+}
+
+Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, const std::string& uuid) {
+  const auto machine = machine_id(connection, run.machine);
+  if (!machine) return machine;
+  const auto base_build = build_id(connection, run.base_build);
+  if (!base_build) return base_build;
+  const auto head_build = build_id(connection, run.head_build);
+  if (!head_build) return head_build;
+  const auto base_commit = optional_commit_id(connection, run.base_commit);
+  if (!base_commit) return Unexpected{base_commit.error()};
+  const auto head_commit = optional_commit_id(connection, run.head_commit);
+  if (!head_commit) return Unexpected{head_commit.error()};
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT INTO gate_run (uuid, started_utc, kind, suite, method, machine_id, base_build_id, "
+      "head_build_id, base_commit_id, head_commit_id, seed, pair_seconds, tolerance, injected_slowdown, "
+      "wall_time_ns, "
+      "compared, differing, verdict, reason) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+      "?)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  insert->bind(uuid, run.started_utc, run.calibration ? "calibration" : "comparison", run.suite, run.method,
+               *machine, *base_build, *head_build, *base_commit, *head_commit, to_bits(run.seed),
+               run.pair_seconds, run.tolerance, run.injected_slowdown, run.wall_time_ns, run.compared,
+               run.differing, run.verdict, run.reason);
+  if (auto done = insert->run(); !done) return Unexpected{done.error()};
+  return connection.last_insert_rowid();
+}
+
+Result<Done> insert_pairs(Connection& connection, std::int64_t cell, const GateCellRow& row) {
+  auto insert = Statement::prepare(
+      connection, "INSERT INTO gate_pair (gate_cell_id, stage, pair, slowdown) VALUES (?, ?, ?, ?)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  for (const int stage : {1, 2}) {
+    const std::vector<double>& pairs = stage == 1 ? row.pairs : row.fresh_pairs;
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+      insert->bind(cell, stage, static_cast<std::int64_t>(pair), pairs[pair]);
+      if (auto done = insert->run(); !done) return done;
+    }
+  }
+  return Done{};
+}
+
+Result<Done> insert_cells(Connection& connection, std::int64_t run, const std::vector<GateCellRow>& cells) {
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT INTO gate_cell (gate_run_id, position, case_id, slowdown, p_value, confirm_slowdown, "
+      "confirm_p_value, "
+      "at_most, noise, effect_floor, detectable, verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  for (std::size_t position = 0; position < cells.size(); ++position) {
+    const GateCellRow& row = cells[position];
+    std::optional<std::int64_t> case_key;
+    if (row.parameters) {
+      const auto id = case_id(connection, *row.parameters);
+      if (!id) return Unexpected{id.error()};
+      case_key = *id;
+    }
+    insert->bind(run, static_cast<std::int64_t>(position), case_key, row.slowdown, row.p_value,
+                 row.confirm_slowdown, row.confirm_p_value, row.at_most, row.noise, row.effect_floor,
+                 row.detectable, row.verdict);
+    if (auto done = insert->run(); !done) return done;
+    if (auto done = insert_pairs(connection, connection.last_insert_rowid(), row); !done) return done;
+  }
+  return Done{};
+}
+
+Result<Done> insert_differences(Connection& connection, std::int64_t run,
+                                const std::vector<GateDifferenceRow>& differences) {
+  auto keys = InstanceKeys::prepare(connection);
+  if (!keys) return Unexpected{keys.error()};
+  auto insert = Statement::prepare(
+      connection,
+      "INSERT OR IGNORE INTO gate_difference (gate_run_id, case_id, instance_id, what, base, head) "
+      "VALUES (?, ?, ?, ?, ?, ?)",
+      kWriting);
+  if (!insert) return Unexpected{insert.error()};
+  for (const GateDifferenceRow& row : differences) {
+    const auto case_key = case_id(connection, row.parameters);
+    if (!case_key) return Unexpected{case_key.error()};
+    const auto instance = keys->key(row.instance);
+    if (!instance) return Unexpected{instance.error()};
+    insert->bind(run, *case_key, *instance, row.what, row.base, row.head);
+    if (auto done = insert->run(); !done) return done;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::string> record_gate_run(Database& database, const GateRun& run) {
+  Connection& connection = database.connection();
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  const std::string uuid = new_uuid();
+  const auto id = insert_run(connection, run, uuid);
+  if (!id) return Unexpected{id.error()};
+  if (auto done = insert_cells(connection, *id, run.cells); !done) return Unexpected{done.error()};
+  if (auto done = insert_differences(connection, *id, run.differences); !done) {
+    return Unexpected{done.error()};
+  }
+  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  return uuid;
+}
+
+Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& kind) {
+  // Enough for a quantile, few enough to follow a machine that changes.
+  constexpr std::int64_t kNewest = 20;
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT gate_cell.id, gate_cell.case_id, gate_pair.slowdown, {} FROM gate_cell "
+                  "JOIN gate_pair ON gate_pair.gate_cell_id = gate_cell.id AND gate_pair.stage = 1 "
+                  "LEFT JOIN case_ ON case_.id = gate_cell.case_id "
+                  "WHERE gate_cell.gate_run_id IN (SELECT gate_run.id FROM gate_run "
+                  "  JOIN machine ON machine.id = gate_run.machine_id "
+                  "  WHERE machine.fingerprint = ? AND gate_run.suite = ? AND gate_run.method = ? "
+                  "    AND gate_run.pair_seconds = ? "
+                  "    AND gate_run.kind = 'calibration' ORDER BY gate_run.started_utc DESC LIMIT ?) "
+                  "ORDER BY gate_cell.case_id, gate_cell.id, gate_pair.pair",
+                  kCaseColumns),
+      "reading the noise of this machine");
+  if (!select) return Unexpected{select.error()};
+  select->bind(fingerprint(kind.machine), kind.suite, kind.method, kind.pair_seconds, kNewest);
+  std::vector<GateNoise> noise;
+  std::optional<std::int64_t> cell;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return noise;
+    std::optional<CaseInfo> parameters;
+    if (!select->is_null(1)) parameters = read_case(*select, 3);
+    if (noise.empty() || noise.back().parameters != parameters) noise.push_back({parameters, {}});
+    if (cell != select->integer(0)) noise.back().comparisons.emplace_back();
+    cell = select->integer(0);
+    noise.back().comparisons.back().push_back(select->real(2));
+  }
+}
+
+}  // namespace sipplab::db

@@ -1,0 +1,320 @@
+// Merging follows the schema: tables, keys and references are read from SQLite, so that a new
+// table is merged without a line here.
+#include "db/merge.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "db/sqlite/statement.hpp"
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::Statement;
+
+constexpr const char* kDoing = "merging";
+
+struct Reference {
+  std::string column;
+  std::string parent;
+  std::string parent_column;
+};
+
+struct TableShape {
+  std::string name;
+  std::vector<std::string> columns;  ///< without the integer key
+  bool has_key = false;              ///< an integer key named id, which is given anew
+  std::vector<std::vector<std::string>> unique;
+  std::vector<Reference> references;
+};
+
+Result<std::vector<std::vector<std::string>>> rows_of(Connection& connection, const std::string& sql,
+                                                      int columns) {
+  auto select = Statement::prepare(connection, sql, kDoing);
+  if (!select) return Unexpected{select.error()};
+  std::vector<std::vector<std::string>> rows;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return rows;
+    rows.emplace_back();
+    for (int i = 0; i < columns; ++i) rows.back().push_back(select->text(i));
+  }
+}
+
+Result<TableShape> shape_of(Connection& connection, const std::string& table) {
+  TableShape shape;
+  shape.name = table;
+  const auto columns = rows_of(
+      connection, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}') ORDER BY cid", table), 3);
+  if (!columns) return Unexpected{columns.error()};
+  for (const auto& column : *columns) {
+    if (column[0] == "id" && column[1] == "INTEGER" && column[2] == "1") {
+      shape.has_key = true;
+    } else {
+      shape.columns.push_back(column[0]);
+    }
+  }
+  const auto indexes = rows_of(
+      connection,
+      fmt::format(
+          "SELECT name FROM pragma_index_list('{}') WHERE \"unique\" AND NOT partial ORDER BY seq DESC",
+          table),
+      1);
+  if (!indexes) return Unexpected{indexes.error()};
+  for (const auto& index : *indexes) {
+    const auto parts = rows_of(
+        connection, fmt::format("SELECT name FROM pragma_index_info('{}') ORDER BY seqno", index[0]), 1);
+    if (!parts) return Unexpected{parts.error()};
+    shape.unique.emplace_back();
+    for (const auto& part : *parts) shape.unique.back().push_back(part[0]);
+  }
+  const auto references = rows_of(connection,
+                                  fmt::format("SELECT \"from\", \"table\", ifnull(\"to\", 'id') FROM "
+                                              "pragma_foreign_key_list('{}') ORDER BY id, seq",
+                                              table),
+                                  3);
+  if (!references) return Unexpected{references.error()};
+  for (const auto& reference : *references)
+    shape.references.push_back({reference[0], reference[1], reference[2]});
+  return shape;
+}
+
+/// All tables, parents before children.
+Result<std::vector<TableShape>> tables_of(Connection& connection) {
+  const auto names =
+      rows_of(connection,
+              "SELECT name FROM main.sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite%' "
+              "ORDER BY rowid",
+              1);
+  if (!names) return Unexpected{names.error()};
+  std::vector<TableShape> waiting;
+  for (const auto& name : *names) {
+    auto shape = shape_of(connection, name[0]);
+    if (!shape) return Unexpected{shape.error()};
+    waiting.push_back(std::move(*shape));
+  }
+  std::vector<TableShape> ordered;
+  std::set<std::string> placed;
+  while (!waiting.empty()) {
+    const auto ready = std::find_if(waiting.begin(), waiting.end(), [&placed](const TableShape& shape) {
+      return std::all_of(shape.references.begin(), shape.references.end(), [&](const Reference& reference) {
+        return reference.parent == shape.name || placed.count(reference.parent) == 1;
+      });
+    });
+    const auto next = ready == waiting.end() ? waiting.begin() : ready;
+    placed.insert(next->name);
+    ordered.push_back(std::move(*next));
+    waiting.erase(next);
+  }
+  return ordered;
+}
+
+class Merge {
+ public:
+  Merge(Connection& connection, std::vector<TableShape> tables, std::string origin)
+      : connection_(connection), tables_(std::move(tables)), origin_(std::move(origin)) {}
+
+  Result<MergeReport> run() {
+    for (const TableShape& table : tables_) {
+      if (auto done = merge_table(table); !done) return Unexpected{done.error()};
+    }
+    if (auto done = bring_up_to_date(); !done) return Unexpected{done.error()};
+    return std::move(report_);
+  }
+
+ private:
+  const TableShape* find(const std::string& name) const {
+    const auto found = std::find_if(tables_.begin(), tables_.end(),
+                                    [&name](const TableShape& table) { return table.name == name; });
+    return found == tables_.end() ? nullptr : &*found;
+  }
+
+  /// The table whose integer key the column holds, followed through composite references.
+  std::optional<std::string> target_of(const TableShape& table, const std::string& column) const {
+    for (const Reference& reference : table.references) {
+      if (reference.column != column) continue;
+      const TableShape* parent = find(reference.parent);
+      if (parent == nullptr) continue;
+      if (reference.parent_column == "id" && parent->has_key) return parent->name;
+      if (auto further = target_of(*parent, reference.parent_column)) return further;
+    }
+    return std::nullopt;
+  }
+
+  /// Rows of the source with keys of the destination: expressions and joins.
+  struct Source {
+    std::vector<std::string> expressions;
+    std::string from;
+  };
+  Source source_of(const TableShape& table) const {
+    Source source;
+    source.from = fmt::format("shard.\"{}\" AS s", table.name);
+    for (const std::string& column : table.columns) {
+      const auto target = target_of(table, column);
+      if (target) {
+        const std::string map = "m_" + column;
+        source.from +=
+            fmt::format(" LEFT JOIN temp.\"key_{}\" AS {} ON {}.old = s.\"{}\"", *target, map, map, column);
+        source.expressions.push_back(map + ".new");
+      } else if (column == "origin") {
+        source.expressions.push_back("iif(s.origin = '', ?1, s.origin)");
+      } else {
+        source.expressions.push_back(fmt::format("s.\"{}\"", column));
+      }
+    }
+    return source;
+  }
+
+  Result<Done> merge_table(const TableShape& table) {
+    const Source source = source_of(table);
+    std::string columns;
+    std::string expressions;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      columns += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", table.columns[i]);
+      expressions += (i == 0 ? "" : ", ") + source.expressions[i];
+    }
+    std::string condition = "true";
+    if (table.name == "cell") {
+      const auto last = connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kDoing);
+      if (!last) return Unexpected{last.error()};
+      last_cell_ = *last;
+    }
+    // The results of a cell come with it or are there already: millions need not be looked up.
+    if (table.name == "result") condition = fmt::format("m_cell_id.new > {}", last_cell_);
+    const std::string sql = fmt::format(
+        "INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING", table.name,
+        columns, expressions, source.from, condition, table.has_key ? " ORDER BY s.id" : "");
+    if (auto done = run(sql); !done) return done;
+    const std::int64_t added = connection_.changes();
+    if (added > 0) report_.added.emplace_back(table.name, added);
+    return table.has_key ? map_keys(table, source) : Result<Done>{Done{}};
+  }
+
+  /// Which key a row of the source has here.
+  Result<Done> map_keys(const TableShape& table, const Source& source) {
+    const std::string map = fmt::format("temp.\"key_{}\"", table.name);
+    if (auto done = connection_.execute(
+            fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kDoing);
+        !done) {
+      return done;
+    }
+    for (const auto& key : table.unique) {
+      std::string same;
+      for (const std::string& column : key) {
+        const auto at = std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
+        same += fmt::format("{}d.\"{}\" = {}", same.empty() ? "" : " AND ", column,
+                            source.expressions[static_cast<std::size_t>(at)]);
+      }
+      // CROSS JOIN: each row of the source looks for itself through the index.
+      if (auto done = run(fmt::format(
+              "INSERT OR IGNORE INTO {} SELECT s.id, d.id FROM {} CROSS JOIN main.\"{}\" AS d ON {}", map,
+              source.from, table.name, same));
+          !done) {
+        return done;
+      }
+    }
+    return Done{};
+  }
+
+  /// What may have changed in rows that both have.
+  Result<Done> bring_up_to_date() {
+    constexpr const char* kUpdates[] = {
+        "UPDATE main.commit_ SET ancestor_count = max(commit_.ancestor_count, s.ancestor_count), "
+        "first_parent_count = max(commit_.first_parent_count, s.first_parent_count) "
+        "FROM shard.commit_ AS s WHERE s.hash = commit_.hash AND (s.ancestor_count > commit_.ancestor_count "
+        "OR s.first_parent_count > commit_.first_parent_count)",
+        "UPDATE main.run SET status = s.status, ended_utc = s.ended_utc FROM shard.run AS s "
+        "WHERE s.uuid = run.uuid AND s.status <> run.status AND (s.status = 'finished' OR run.status = "
+        "'running')",
+        "UPDATE main.run SET excluded_reason = s.excluded_reason, excluded_utc = s.excluded_utc, "
+        "included_utc = s.included_utc FROM shard.run AS s WHERE s.uuid = run.uuid AND "
+        "max(ifnull(s.excluded_utc, ''), ifnull(s.included_utc, '')) > "
+        "max(ifnull(run.excluded_utc, ''), ifnull(run.included_utc, ''))",
+        "UPDATE main.finding SET state = s.state, last_utc = s.last_utc, "
+        "last_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.last_commit_id), "
+        "fixed_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.fixed_commit_id) "
+        "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
+        "AND s.last_utc > finding.last_utc",
+    };
+    for (const char* sql : kUpdates) {
+      if (auto done = connection_.execute(sql, kDoing); !done) return done;
+    }
+    return Done{};
+  }
+
+  Result<Done> run(const std::string& sql) {
+    auto statement = Statement::prepare(connection_, sql, kDoing);
+    if (!statement) return Unexpected{statement.error()};
+    if (sql.find("?1") != std::string::npos) statement->bind(origin_);
+    return statement->run();
+  }
+
+  Connection& connection_;
+  std::vector<TableShape> tables_;
+  std::string origin_;
+  std::int64_t last_cell_ = 0;
+  MergeReport report_;
+};
+
+Result<Done> attach(Connection& connection, const fs::path& source) {
+  auto statement = Statement::prepare(connection, "ATTACH ? AS shard", "opening what is merged");
+  if (!statement) return Unexpected{statement.error()};
+  return statement->bind(source.string()).run();
+}
+
+void detach(Connection& connection, const std::vector<TableShape>& tables) {
+  for (const TableShape& table : tables) {
+    // Nothing depends on it: the next merge begins with maps of its own.
+    static_cast<void>(
+        connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kDoing));
+  }
+  static_cast<void>(connection.execute("DETACH shard", kDoing));
+}
+
+Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
+                                   const std::string& origin) {
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  auto report = Merge(connection, tables, origin).run();
+  if (!report) return report;
+  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  return report;
+}
+
+}  // namespace
+
+std::int64_t MergeReport::rows_of(const std::string& table) const {
+  for (const auto& [name, rows] : added) {
+    if (name == table) return rows;
+  }
+  return 0;
+}
+
+Result<MergeReport> merge_into(Database& database, const fs::path& source) {
+  std::error_code code;
+  if (fs::equivalent(source, database.path(), code)) {
+    return Unexpected{Error{ErrorKind::kBadInput,
+                            fmt::format("{}: merged into itself, expected another file", source.string())}};
+  }
+  {
+    // Says what is wrong with it, and brings it to this version.
+    const auto readable = Database::open_read_only(source);
+    if (!readable) return Unexpected{readable.error()};
+  }
+  Connection& connection = database.connection();
+  const auto tables = tables_of(connection);
+  if (!tables) return Unexpected{tables.error()};
+  if (auto done = attach(connection, source); !done) return Unexpected{done.error()};
+  auto report = merge_attached(connection, *tables, source.string());
+  detach(connection, *tables);
+  return report;
+}
+
+}  // namespace sipplab::db

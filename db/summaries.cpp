@@ -1,0 +1,87 @@
+// Summaries of cells, in SQL.
+#include "db/summaries.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "db/sqlite/transaction.hpp"
+
+namespace sipplab::db {
+namespace {
+
+constexpr const char* kColumns =
+    "case_id, run_id, results, solved, failed, limited, invalid, mean_planning_time_s, "
+    "max_planning_time_s, par2_time_s, mean_makespan_s, mean_flowtime_s, mean_tries, mean_expansions, "
+    "mean_generations";
+constexpr const char* kMedians = "median_planning_time_s, median_makespan_s, median_flowtime_s";
+
+/// Mean of the two in the middle, as SQLite's avg takes it.
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  const std::size_t upper = values.size() / 2;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(upper);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
+
+}  // namespace
+
+CellMedians medians_of(const std::vector<const ResultRow*>& results) {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  std::vector<double> times_ns;
+  std::vector<double> makespans_s;
+  std::vector<double> flowtimes_s;
+  for (const ResultRow* row : results) {
+    times_ns.push_back(static_cast<double>(row->planning_time_ns));
+    if (row->status != ResultStatus::kSolved) continue;
+    if (row->makespan_s) makespans_s.push_back(*row->makespan_s);
+    if (row->flowtime_s) flowtimes_s.push_back(*row->flowtime_s);
+  }
+  CellMedians medians{median(std::move(times_ns)), median(std::move(makespans_s)),
+                      median(std::move(flowtimes_s))};
+  if (medians.planning_time_s) *medians.planning_time_s /= kNanosecondsPerSecond;
+  return medians;
+}
+
+Result<CellSummariser> CellSummariser::prepare(sqlite::Connection& connection) {
+  auto insert = sqlite::Statement::prepare(
+      connection,
+      fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, ?2, ?3, ?4 FROM v_recomputed_cells "
+                  "WHERE cell_id = ?1",
+                  kColumns, kMedians),
+      "summarising a finished case");
+  if (!insert) return Unexpected{insert.error()};
+  return CellSummariser{std::move(*insert)};
+}
+
+Result<Done> CellSummariser::summarise(std::int64_t cell_id, const CellMedians& medians) {
+  return insert_.bind(cell_id, medians.planning_time_s, medians.makespan_s, medians.flowtime_s).run();
+}
+
+Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection) {
+  // The same statements over the same rows give the same bits, whatever the machine:
+  // a difference is a change of the results.
+  return connection.query_int(
+      fmt::format("SELECT count(*) FROM (SELECT {0}, {1} FROM v_recomputed_cells EXCEPT "
+                  "SELECT {0}, {1} FROM cell_summary)",
+                  kColumns, kMedians),
+      "comparing summaries with results");
+}
+
+Result<Done> rebuild_summaries(sqlite::Connection& connection) {
+  auto transaction = sqlite::Transaction::begin(connection);
+  if (!transaction) return Unexpected{transaction.error()};
+  if (auto done = connection.execute("DELETE FROM cell_summary", "clearing summaries"); !done) return done;
+  if (auto done = connection.execute(
+          fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, {1} FROM v_recomputed_cells", kColumns,
+                      kMedians),
+          "making summaries anew");
+      !done)
+    return done;
+  return transaction->commit();
+}
+
+}  // namespace sipplab::db

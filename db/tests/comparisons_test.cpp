@@ -1,0 +1,122 @@
+// What users call a side of a comparison, and which results are its pairs.
+#include "db/comparisons.hpp"
+
+#include "db/queries.hpp"
+#include "db/tests/support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using test::must;
+
+constexpr const char* kOlder = "aaaa000000000000000000000000000000000000";
+constexpr const char* kNewer = "aaab000000000000000000000000000000000000";
+
+class Comparisons : public test::DatabaseTest {
+ protected:
+  /// A run of one case with `count` instances; returns its UUID.
+  std::string record(const std::string& hash, std::int64_t ancestors, const std::string& branch,
+                     std::int64_t robots, int count) {
+    RunInfo info = test::sample_run();
+    info.commit->hash = hash;
+    info.commit->ancestor_count = ancestors;
+    info.branch = branch;
+    auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
+    test::record_case(recorder, test::sample_case(robots), count);
+    must(recorder.finish(RunStatus::kFinished));
+    return recorder.run_uuid();
+  }
+
+  Result<ComparisonSide> side(const std::string& text) {
+    auto database = must(Database::open_read_only(file));
+    return resolve_side(database, text);
+  }
+
+  std::vector<PairedCell> pairs(const std::string& base, const std::string& head) {
+    auto database = must(Database::open_read_only(file));
+    return must(
+        paired_cells(database, must(resolve_side(database, base)), must(resolve_side(database, head))));
+  }
+};
+
+TEST_F(Comparisons, a_side_is_a_run_a_commit_or_a_branch) {
+  const std::string first = record(kOlder, 7, "main", 64, 3);
+  const std::string second = record(kNewer, 8, "main", 64, 3);
+  EXPECT_EQ(must(side(first)).title, "run " + first.substr(0, 8) + " of commit aaaa0000");
+  EXPECT_EQ(must(side("latest")).title, "run " + second.substr(0, 8) + " of commit aaab0000");
+  EXPECT_EQ(must(side("aaaa0")).title, "commit aaaa0000 (1 run)");
+  EXPECT_EQ(must(side("main")).title, "branch main at aaab0000 (1 run)");
+  EXPECT_EQ(must(side("commit:aaab")).commit_hash, kNewer);
+  EXPECT_EQ(side("aaa").error().kind, ErrorKind::kNotFound);  // too short for a hash, no branch
+  EXPECT_EQ(side("develop").error().kind, ErrorKind::kNotFound);
+  EXPECT_EQ(side("run:main").error().kind, ErrorKind::kNotFound);
+}
+
+TEST_F(Comparisons, what_fits_two_things_is_refused) {
+  record(kOlder, 7, "aaaa", 64, 1);
+  const auto ambiguous = side("aaaa");
+  ASSERT_FALSE(ambiguous);
+  EXPECT_NE(ambiguous.error().message.find("branch:"), std::string::npos) << ambiguous.error().message;
+  EXPECT_TRUE(side("branch:aaaa"));
+  EXPECT_TRUE(side("commit:aaaa"));
+}
+
+TEST_F(Comparisons, excluded_runs_do_not_count) {
+  record(kOlder, 7, "main", 64, 3);
+  const std::string newer = record(kNewer, 8, "main", 64, 3);
+  auto database = must(Database::open(file));
+  must(exclude_run(database, newer, "busy machine"));
+  EXPECT_EQ(must(side("main")).commit_hash, kOlder);
+  EXPECT_NE(side(newer).error().message.find("excluded"), std::string::npos);
+  EXPECT_FALSE(side("commit:aaab"));
+}
+
+TEST_F(Comparisons, of_a_commit_the_newest_result_of_each_case_counts) {
+  const std::string base = record(kOlder, 7, "main", 64, 3);
+  record(kNewer, 8, "work", 64, 1);
+  const std::string shard = record(kNewer, 8, "work", 128, 2);
+  const std::string again = record(kNewer, 8, "work", 64, 2);
+  record(kOlder, 7, "main", 128, 2);
+  const std::vector<PairedCell> cells = pairs("commit:aaaa", "work");
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_EQ(cells[0].parameters.robots, 64);
+  EXPECT_EQ(cells[0].base_run, base);
+  EXPECT_EQ(cells[0].head_run, again);
+  EXPECT_EQ(cells[0].results.size(), 2U);
+  EXPECT_EQ(cells[0].base_only, 1U);
+  EXPECT_EQ(cells[0].head_only, 0U);
+  EXPECT_TRUE(cells[0].same_machine);
+  EXPECT_EQ(cells[1].head_run, shard);
+}
+
+TEST_F(Comparisons, pairs_hold_what_was_recorded) {
+  record(kOlder, 7, "main", 64, 3);
+  record(kNewer, 8, "work", 64, 3);
+  const std::vector<PairedCell> cells = pairs("main", "work");
+  ASSERT_EQ(cells.size(), 1U);
+  ASSERT_EQ(cells[0].results.size(), 3U);
+  for (int i = 0; i < 3; ++i) {
+    const PairedResult& pair = cells[0].results[static_cast<std::size_t>(i)];
+    const ResultRow expected = test::sample_result(i);
+    EXPECT_EQ(pair.instance_hash, test::sample_instance(i).content_hash);
+    for (const ResultRow& row : {pair.base, pair.head}) {
+      EXPECT_EQ(row.status, expected.status);
+      EXPECT_EQ(row.planning_time_ns, expected.planning_time_ns);
+      EXPECT_EQ(row.makespan_s, expected.makespan_s);
+      EXPECT_EQ(row.flowtime_s, expected.flowtime_s);
+      EXPECT_EQ(row.tries, expected.tries);
+      EXPECT_EQ(row.expansions, expected.expansions);
+      EXPECT_EQ(row.generations, expected.generations);
+      EXPECT_EQ(row.plan_hash, expected.plan_hash);
+    }
+  }
+}
+
+TEST_F(Comparisons, sides_without_a_common_case_have_no_pairs) {
+  record(kOlder, 7, "main", 64, 3);
+  record(kNewer, 8, "work", 128, 3);
+  EXPECT_TRUE(pairs("main", "work").empty());
+}
+
+}  // namespace
+}  // namespace sipplab::db

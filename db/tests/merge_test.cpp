@@ -1,0 +1,175 @@
+// Merging: everything arrives, once, and says where it came from.
+#include "db/merge.hpp"
+
+#include "db/measurements.hpp"
+#include "db/queries.hpp"
+#include "db/tests/history_support.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using test::ask;
+using test::must;
+using test::record_version;
+
+class Merging : public test::DatabaseTest {
+ protected:
+  Merging() : first(folder / "first.db"), second(folder / "second.db") {}
+
+  MergeReport merge(const std::filesystem::path& source) {
+    auto database = must(Database::open(file));
+    return must(merge_into(database, source));
+  }
+  /// Everything that views show, without what holds within one file only.
+  std::string contents(const std::filesystem::path& path) {
+    const char* runs =
+        "SELECT run, suite, status, started_utc, commit_hash, machine, binary_hash, excluded_reason, cases, "
+        "results, solved, shard FROM v_runs ORDER BY run";
+    const char* results =
+        "SELECT run, instance_hash, position, repetition, robots, ssi_s, status, planning_time_ns, "
+        "makespan_s, flowtime_s, plan_hash FROM v_results "
+        "ORDER BY run, robots, ssi_s, instance_hash, position, repetition";
+    const char* cells =
+        "SELECT run, robots, ssi_s, success_rate, median_planning_time_s, median_flowtime_s "
+        "FROM v_run_cells ORDER BY run, robots, ssi_s";
+    const char* commits =
+        "SELECT commit_hash, subject, ancestor_count, parents, runs FROM v_commits ORDER BY commit_hash";
+    std::string text;
+    for (const char* question : {runs, results, cells, commits})
+      text += format_csv(must(run_sql(path, question)));
+    return text;
+  }
+
+  std::filesystem::path first;
+  std::filesystem::path second;
+};
+
+TEST_F(Merging, shards_become_one_history_that_knows_where_they_came_from) {
+  record_version(first, {1, 1, 8}, 64);
+  record_version(first, {2, 1, 7}, 64);
+  record_version(second, {2, 1, 9}, 128);
+  EXPECT_EQ(merge(first).rows_of("result"), 20);
+  const MergeReport report = merge(second);
+  EXPECT_EQ(report.rows_of("run"), 1);
+  EXPECT_EQ(report.rows_of("commit_"), 0) << "both know the second commit";
+  EXPECT_EQ(report.rows_of("instance"), 0) << "both know the instances";
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_runs"), "3");
+  EXPECT_EQ(ask(file, "SELECT origin FROM v_runs WHERE solved = 9"), second.string());
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_run_cells WHERE success_rate = 0.9 AND robots = 128"), "1");
+  test::expect_sound(file);
+}
+
+TEST_F(Merging, twice_is_once) {
+  record_version(first, {1, 1, 8});
+  record_version(second, {2, 1, 7});
+  merge(first);
+  merge(second);
+  const std::string once = contents(file);
+  EXPECT_TRUE(merge(first).added.empty());
+  EXPECT_TRUE(merge(second).added.empty());
+  EXPECT_EQ(contents(file), once);
+}
+
+TEST_F(Merging, the_order_does_not_matter) {
+  record_version(first, {1, 1, 8}, 64);
+  record_version(second, {2, 1, 7}, 128);
+  merge(first);
+  merge(second);
+  const std::filesystem::path other = folder / "other.db";
+  {
+    auto database = must(Database::open(other));
+    must(merge_into(database, second));
+    must(merge_into(database, first));
+  }
+  EXPECT_EQ(contents(other), contents(file));
+}
+
+TEST_F(Merging, a_run_that_went_on_is_brought_up_to_date) {
+  auto recorder = must(RunRecorder::begin(must(Database::open(first)), test::sample_run()));
+  test::record_case(recorder, test::sample_case(64), 5);
+  merge(first);
+  EXPECT_EQ(ask(file, "SELECT status || cases FROM v_runs"), "running1");
+  test::record_case(recorder, test::sample_case(128), 5);
+  must(recorder.finish(RunStatus::kFinished));
+  EXPECT_EQ(merge(first).rows_of("result"), 5);
+  EXPECT_EQ(ask(file, "SELECT status || cases FROM v_runs"), "finished2");
+  test::expect_sound(file);
+}
+
+TEST_F(Merging, the_later_word_about_an_exclusion_stands) {
+  const std::string uuid = record_version(first, {1, 1, 8});
+  merge(first);
+  {
+    auto database = must(Database::open(first));
+    must(exclude_run(database, uuid, "swapping"));
+  }
+  merge(first);
+  EXPECT_EQ(ask(file, "SELECT excluded_reason FROM run"), "swapping");
+  {
+    auto database = must(Database::open(file));
+    must(include_run(database, uuid));
+  }
+  merge(first);
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM run WHERE excluded_reason IS NULL"), "1")
+      << "it was included here after it was excluded there";
+}
+
+TEST_F(Merging, counts_that_a_shallow_clone_did_not_know_are_filled_in) {
+  record_version(first, {7, 1, 8});
+  record_version(second, {7, 1, 8});
+  ask(first, "UPDATE commit_ SET ancestor_count = 0 RETURNING 1");
+  merge(first);
+  merge(second);
+  EXPECT_EQ(ask(file, "SELECT ancestor_count FROM commit_"), "7");
+}
+
+TEST_F(Merging, every_table_of_the_schema_is_merged) {
+  record_version(first, {1, 1, 8});
+  MeasurementRun imported;
+  imported.uuid = "00000000-0000-8000-8000-000000000001";
+  imported.started_utc = "2026-01-31T12:00:00.000Z";
+  imported.info.suite = "other";
+  imported.measurements.push_back({"sort/1024", 0, 100, 12.5, 12.0, "", {{"items_per_second", 8e7}}});
+  {
+    auto database = must(Database::open(first));
+    must(record_measurements(database, imported));
+  }
+  merge(first);
+  EXPECT_EQ(ask(file, "SELECT benchmark || json_extract(counters, '$.items_per_second') FROM v_measurements"),
+            "sort/102480000000.0");
+  for (const std::string table : {"commit_parent", "cell_summary", "measurement_counter", "result"}) {
+    EXPECT_EQ(ask(file, "SELECT count(*) FROM " + table), ask(first, "SELECT count(*) FROM " + table))
+        << table;
+  }
+}
+
+TEST_F(Merging, a_full_disk_leaves_the_history_as_it_was) {
+  record_version(file, {1, 1, 8}, 32);
+  for (int number = 2; number <= 40; ++number) record_version(first, {number, 1, 8}, 64 + number);
+  const std::string before = contents(file);
+  auto database = must(Database::open(file));
+  const auto pages = must(database.connection().query_int("PRAGMA page_count", "asking"));
+  must(database.connection().execute("PRAGMA max_page_count = " + std::to_string(pages + 2), "filling up"));
+  const auto full = merge_into(database, first);
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().kind, ErrorKind::kFull) << full.error().message;
+  EXPECT_EQ(contents(file), before);
+  must(database.connection().execute("PRAGMA max_page_count = 1000000", "making room"));
+  EXPECT_EQ(must(merge_into(database, first)).rows_of("run"), 39);
+  test::expect_sound(file);
+}
+
+TEST_F(Merging, what_is_no_history_is_refused_and_nothing_changes) {
+  record_version(file, {1, 1, 8});
+  const std::string before = contents(file);
+  auto database = must(Database::open(file));
+  const auto itself = merge_into(database, file);
+  ASSERT_FALSE(itself);
+  EXPECT_NE(itself.error().message.find("merged into itself"), std::string::npos);
+  EXPECT_FALSE(merge_into(database, folder / "none.db"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.db"));
+  EXPECT_EQ(contents(file), before);
+}
+
+}  // namespace
+}  // namespace sipplab::db

@@ -1,0 +1,290 @@
+// Series of metrics, read from the views and put in the order of history.
+#include "db/trends.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <tuple>
+
+#include "db/sqlite/statement.hpp"
+#include "db/statistics/statistics.hpp"
+
+namespace sipplab::db {
+namespace {
+
+using sqlite::Statement;
+
+constexpr std::string_view kReading = "reading a trend";
+
+struct Sample {
+  std::string commit;
+  std::string binary;  ///< of a build with uncommitted changes; else empty
+  bool dirty = false;
+  std::string subject;
+  std::string committed_utc;
+  std::int64_t ancestor_count = 0;
+  std::string started_utc;
+  double value = 0;
+};
+
+/// Columns that every source of samples gives after the context, in this order.
+constexpr const char* kSampleColumns =
+    "ifnull(commit_hash, ''), ifnull(commit_subject, ''), ifnull(committed_utc, started_utc), "
+    "ifnull(ancestor_count, 0), started_utc, dirty, binary_hash, value";
+
+Sample read_sample(const Statement& row, int column) {
+  Sample sample;
+  sample.commit = row.text(column++);
+  sample.subject = row.text(column++);
+  sample.committed_utc = row.text(column++);
+  sample.ancestor_count = row.integer(column++);
+  sample.started_utc = row.text(column++);
+  sample.dirty = row.integer(column++) != 0;
+  const std::string binary = row.text(column++);
+  if (sample.dirty || sample.commit.empty()) sample.binary = binary;
+  sample.value = row.real(column);
+  return sample;
+}
+
+/// Where a count of ancestors is not known, the commits of earlier date tell the place.
+void place_unknown(std::vector<Sample>& samples) {
+  std::map<std::string, std::int64_t> greatest_until;
+  for (const Sample& sample : samples) {
+    if (sample.ancestor_count > 0) {
+      std::int64_t& count = greatest_until[sample.committed_utc];
+      count = std::max(count, sample.ancestor_count);
+    }
+  }
+  std::int64_t greatest = 0;
+  for (auto& [date, count] : greatest_until) count = greatest = std::max(greatest, count);
+  for (Sample& sample : samples) {
+    if (sample.ancestor_count > 0) continue;
+    const auto later = greatest_until.upper_bound(sample.committed_utc);
+    if (later != greatest_until.begin()) sample.ancestor_count = std::prev(later)->second;
+  }
+}
+
+std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
+  place_unknown(samples);
+  const auto place = [](const Sample& sample) {
+    return std::tie(sample.ancestor_count, sample.committed_utc, sample.commit, sample.dirty,
+                    sample.started_utc);
+  };
+  std::stable_sort(samples.begin(), samples.end(),
+                   [&place](const Sample& a, const Sample& b) { return place(a) < place(b); });
+  const auto version = [](const Sample& sample) {
+    return std::tie(sample.commit, sample.dirty, sample.binary);
+  };
+  std::vector<TrendPoint> points;
+  for (std::size_t begin = 0; begin < samples.size();) {
+    const Sample& first = samples[begin];
+    std::vector<double> values;
+    std::size_t end = begin;
+    while (end < samples.size() && version(samples[end]) == version(first)) {
+      values.push_back(samples[end++].value);
+    }
+    points.push_back({first.commit, first.dirty, first.subject, first.committed_utc, first.started_utc,
+                      static_cast<std::int64_t>(values.size()), statistics::median(values).value_or(0)});
+    begin = end;
+  }
+  return points;
+}
+
+struct CaseName {
+  std::int64_t id = 0;
+  std::string label;
+};
+
+Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& filter) {
+  auto select = Statement::prepare(
+      database.connection(),
+      "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s-%d', environment, robots, "
+      "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, "
+      "iif(any_angle, 'any-angle', 'grid'), 1 << connectedness) FROM case_ "
+      "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS NULL OR robots = ?3) "
+      "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
+      "AND (?6 IS NULL OR initial_order = ?6) AND (?7 IS NULL OR any_angle = ?7) "
+      "AND (?8 IS NULL OR connectedness = ?8) AND (?9 IS NULL OR map_spec = ?9) "
+      "ORDER BY environment, planner, any_angle, connectedness, initial_order, reschedule, ssi_s, robots, id",
+      kReading);
+  if (!select) return Unexpected{select.error()};
+  select->bind(filter.id, filter.environment, filter.robots, filter.ssi_s, filter.reschedule, filter.order,
+               filter.any_angle, filter.connectedness, filter.map);
+  std::vector<CaseName> cases;
+  for (;;) {
+    const auto row = select->step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return cases;
+    cases.push_back({select->integer(0), select->text(1)});
+  }
+}
+
+using SamplesByContext = std::map<std::string, std::vector<Sample>>;
+
+/// Rows of `select`: the context, then a sample.
+Result<SamplesByContext> read_samples(Statement& select) {
+  SamplesByContext samples;
+  for (;;) {
+    const auto row = select.step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return samples;
+    samples[select.text(0)].push_back(read_sample(select, 1));
+  }
+}
+
+Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metric) {
+  const std::string context =
+      metric.timed
+          ? "host || ' ' || substr(machine, 1, 8) || ', ' || compiler || ' ' || compiler_version || ' ' || "
+            "build_type || iif(assertions, ' assertions', '') || iif(sanitizers <> '', ' ' || "
+            "sanitizers, '')"
+          : "''";
+  return Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT {}, {} FROM v_trends WHERE metric = ?1 AND case_id = ?2 AND value IS NOT NULL "
+                  "AND excluded_reason IS NULL AND (?3 IS NULL OR suite = ?3) "
+                  "AND (?4 IS NULL OR branch = ?4) "
+                  "AND (?5 IS NULL OR host = ?5 OR substr(machine, 1, length(?5)) = ?5)",
+                  context, kSampleColumns),
+      kReading);
+}
+
+Result<std::vector<TrendSeries>> read_case_trends(Database& database, const TrendQuery& query) {
+  const auto cases = find_cases(database, query.cases);
+  if (!cases) return Unexpected{cases.error()};
+  auto select = prepare_case_trend(database, *query.metric);
+  if (!select) return Unexpected{select.error()};
+  std::vector<TrendSeries> series;
+  for (const CaseName& named : *cases) {
+    select->bind(query.metric->name, named.id, query.suite, query.branch, query.machine);
+    auto samples = read_samples(*select);
+    if (!samples) return Unexpected{samples.error()};
+    select->reset();
+    for (auto& [context, values] : *samples) {
+      series.push_back({named.id, named.label, context, points_of(std::move(values)), {}});
+    }
+  }
+  return series;
+}
+
+/// One value per commit of everything that a check of another kind gave there.
+std::string commit_source(const TrendMetric& metric) {
+  const auto properties = [](std::string_view value) {
+    return fmt::format(
+        "SELECT 'all properties' AS context, commit_.hash AS commit_hash, commit_.subject AS commit_subject, "
+        "commit_.committed_utc AS committed_utc, commit_.ancestor_count AS ancestor_count, "
+        "min(property_run.started_utc) AS started_utc, 0 AS dirty, '' AS binary_hash, {} AS value "
+        "FROM property_run JOIN commit_ ON commit_.id = property_run.commit_id "
+        "WHERE property_run.mutant = '' GROUP BY commit_.id",
+        value);
+  };
+  const auto fuzz_runs = [](std::string_view value) {
+    return fmt::format(
+        "SELECT target || ', ' || host AS context, v_fuzz_runs.commit_hash, v_fuzz_runs.commit_subject, "
+        "commit_.committed_utc, v_fuzz_runs.ancestor_count, started_utc, dirty, target_hash AS binary_hash, "
+        "{0} AS value FROM v_fuzz_runs LEFT JOIN commit_ ON commit_.hash = v_fuzz_runs.commit_hash "
+        "WHERE {0} IS NOT NULL",
+        value);
+  };
+  if (metric.name == "property-cases") return properties("sum(property_run.cases)");
+  if (metric.name == "fuzz-speed") return fuzz_runs("executions_per_s");
+  if (metric.name == "fuzz-edges") return fuzz_runs("edges");
+  if (metric.name == "fuzz-coverage") {
+    return "SELECT room AS context, v_fuzz_coverage.commit_hash, commit_.subject AS commit_subject, "
+           "commit_.committed_utc, v_fuzz_coverage.ancestor_count, started_utc, 0 AS dirty, '' AS "
+           "binary_hash, "
+           "share AS value FROM v_fuzz_coverage LEFT JOIN commit_ ON commit_.hash = "
+           "v_fuzz_coverage.commit_hash";
+  }
+  if (metric.name == "benchmark-time") {
+    return "SELECT benchmark || ', ' || host AS context, v_measurements.commit_hash, "
+           "commit_.subject AS commit_subject, commit_.committed_utc, v_measurements.ancestor_count, "
+           "started_utc, "
+           "0 AS dirty, run AS binary_hash, real_time_ns / 1e9 AS value "
+           "FROM v_measurements LEFT JOIN commit_ ON commit_.hash = v_measurements.commit_hash "
+           "WHERE real_time_ns IS NOT NULL AND excluded_reason IS NULL";
+  }
+  return properties("avg(property_run.status <> 'passed')");
+}
+
+Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT context, {} FROM ({})", kSampleColumns, commit_source(*query.metric)), kReading);
+  if (!select) return Unexpected{select.error()};
+  auto samples = read_samples(*select);
+  if (!samples) return Unexpected{samples.error()};
+  std::vector<TrendSeries> series;
+  for (auto& [context, values] : *samples)
+    series.push_back({0, context, "", points_of(std::move(values)), {}});
+  return series;
+}
+
+double median_between(const std::vector<TrendPoint>& points, std::size_t begin, std::size_t end) {
+  std::vector<double> values;
+  for (std::size_t i = begin; i < end; ++i) values.push_back(points[i].value);
+  return statistics::median(std::move(values)).value_or(0);
+}
+
+/// Drops the changes that are too small to matter. A level reaches from one change to the next,
+/// so that the levels are taken anew whenever one is dropped.
+void drop_small_changes(TrendSeries& series, const TrendMetric& metric, double min_effect) {
+  for (;;) {
+    std::size_t smallest = series.changes.size();
+    double smallest_effect = min_effect;
+    for (std::size_t i = 0; i < series.changes.size(); ++i) {
+      TrendChange& change = series.changes[i];
+      const std::size_t begin = i == 0 ? 0 : series.changes[i - 1].position;
+      const std::size_t end =
+          i + 1 == series.changes.size() ? series.points.size() : series.changes[i + 1].position;
+      change.before = median_between(series.points, begin, change.position);
+      change.after = median_between(series.points, change.position, end);
+      const double effect = std::abs(effect_of(change, metric));
+      if (effect < smallest_effect) {
+        smallest = i;
+        smallest_effect = effect;
+      }
+    }
+    if (smallest == series.changes.size()) return;
+    series.changes.erase(series.changes.begin() + static_cast<std::ptrdiff_t>(smallest));
+  }
+}
+
+}  // namespace
+
+Result<std::vector<TrendSeries>> read_trend(Database& database, const TrendQuery& query) {
+  return query.metric->of_case ? read_case_trends(database, query) : read_commit_trend(database, query);
+}
+
+void mark_changes(std::vector<TrendSeries>& series, const TrendMetric& metric, const ChangeRules& rules) {
+  struct Test {
+    std::size_t series;
+    statistics::Division division;
+  };
+  std::vector<Test> tests;
+  std::vector<double> p_values;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    std::vector<double> values;
+    for (const TrendPoint& point : series[i].points) values.push_back(point.value);
+    for (const statistics::Division& division : statistics::divide(values, rules.search)) {
+      tests.push_back({i, division});
+      p_values.push_back(division.p_value);
+    }
+  }
+  const std::vector<bool> stands = statistics::benjamini_hochberg(p_values, rules.false_discovery_rate);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if (!stands[i] || !tests[i].division.accepted) continue;
+    TrendChange change;
+    change.position = tests[i].division.position;
+    change.p_value = tests[i].division.p_value;
+    series[tests[i].series].changes.push_back(change);
+  }
+  for (TrendSeries& one : series) {
+    drop_small_changes(one, metric, rules.min_effect.value_or(metric.min_effect));
+  }
+}
+
+}  // namespace sipplab::db

@@ -1,0 +1,98 @@
+// The history of a metric: one series per case, one point per commit, and where the level
+// changed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "db/database.hpp"
+#include "db/error.hpp"
+#include "db/statistics/change_points.hpp"
+
+namespace sipplab::db {
+
+struct TrendMetric {
+  std::string_view name;
+  std::string_view meaning;
+  std::string_view unit;  ///< "s"; empty for counts and rates
+  bool higher_is_better = false;
+  /// Depends on the clock: compared on one machine and kind of build only.
+  bool timed = false;
+  /// Of a case of the planner; else of the property runs, fuzz targets or imported benchmarks of
+  /// a commit, and cases, suite, branch and machine of a query do not apply.
+  bool of_case = true;
+  /// Smallest change worth a mark: a share of the level, or a difference for rates.
+  double min_effect = 0;
+  bool rate = false;  ///< 0..1: effects are differences
+};
+
+const std::vector<TrendMetric>& trend_metrics();
+const TrendMetric* find_trend_metric(std::string_view name);
+
+/// Which cases: empty fields admit all.
+struct CaseFilter {
+  std::optional<std::int64_t> id;
+  std::optional<std::string> environment;
+  std::optional<std::int64_t> robots;
+  std::optional<double> ssi_s;
+  std::optional<std::string> reschedule;
+  std::optional<std::string> order;
+  std::optional<bool> any_angle;
+  std::optional<std::int64_t> connectedness;
+  std::optional<std::string> map;
+};
+
+struct TrendQuery {
+  const TrendMetric* metric = nullptr;
+  CaseFilter cases;
+  std::optional<std::string> suite;
+  std::optional<std::string> branch;   ///< runs of a checkout of this branch
+  std::optional<std::string> machine;  ///< beginning of a fingerprint, or a host
+};
+
+/// What was measured of one version of the program: median of the runs at a commit. A build
+/// with uncommitted changes, or without a commit, is a version of its own.
+struct TrendPoint {
+  std::string commit;  ///< full hash; empty where there is none
+  bool dirty = false;
+  std::string subject;
+  std::string committed_utc;  ///< or the start of the run where there is no commit
+  std::string started_utc;    ///< of its first run
+  std::int64_t runs = 0;
+  double value = 0;
+};
+
+struct TrendChange {
+  std::size_t position = 0;  ///< of the first point of the new level
+  double before = 0;         ///< median of the level before, and after
+  double after = 0;
+  double p_value = 1;
+};
+
+struct TrendSeries {
+  std::int64_t case_id = 0;        ///< 0: not of a case
+  std::string label;               ///< the case in words
+  std::string context;             ///< machine and build, of timed metrics
+  std::vector<TrendPoint> points;  ///< in order of history
+  std::vector<TrendChange> changes;
+};
+
+/// Series with at least one point, by case and context. Excluded runs are left out.
+Result<std::vector<TrendSeries>> read_trend(Database& database, const TrendQuery& query);
+
+struct ChangeRules {
+  statistics::ChangePointOptions search;
+  double false_discovery_rate = 0.05;
+  std::optional<double> min_effect;  ///< instead of the metric's
+};
+
+/// Fills in the changes of all series, judged together.
+void mark_changes(std::vector<TrendSeries>& series, const TrendMetric& metric, const ChangeRules& rules = {});
+
+/// after / before - 1, or after - before for rates. Infinite where a level of 0 is left.
+double effect_of(const TrendChange& change, const TrendMetric& metric);
+
+}  // namespace sipplab::db
