@@ -12,6 +12,9 @@
 namespace sipplab {
 namespace {
 
+/// End of a disk that was removed: before every beginning.
+constexpr double kRemoved = -kForever;
+
 /// Half the side of a cell.
 constexpr double kHalfCell = 0.5;
 
@@ -116,7 +119,7 @@ void ReservationTable::remove(DiskId id) {
     PLANNER_ASSERT(place != presences.end());
     presences.erase(place);
   });
-  disks_[id].end_s = disks_[id].begin_s;  // a disk that is nowhere at any time
+  disks_[id].end_s = kRemoved;
 }
 
 void ReservationTable::add(const Trajectory& trajectory, double radius_cells) {
@@ -156,30 +159,34 @@ const std::vector<SafeInterval>& ReservationTable::safe_intervals(Cell cell, dou
 
 double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                                         double departure_s) {
-  const double reach = radius_cells + disk.radius;
-  if (!departure_overlaps(move, departure_s, disk, reach)) return departure_s;
-  const OpenInterval unsafe = unsafe_departures(move, disk, reach);
+  const OpenInterval unsafe = unsafe_departures(move, disk, radius_cells + disk.radius);
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
 double ReservationTable::next_departure(const Move& move, const CellVisit& visit, double radius_cells,
                                         double departure_s) {
   const Timeline& timeline = timelines_[visit.cell];
-  const double enter_s = departure_s + visit.enter_s;
-  const double leave_s = departure_s + visit.leave_s;
+  // Unsafe departures may reach a little beyond the time that is spent near a disk.
+  const double margin_s = kNearMissCells / move.speed;
+  const double enter_s = departure_s + visit.enter_s - margin_s;
+  const double leave_s = departure_s + visit.leave_s + margin_s;
   auto presence =
       std::lower_bound(timeline.passing.begin(), timeline.passing.end(), enter_s - timeline.longest_s,
                        [](const Presence& other, double time_s) { return other.enter_s < time_s; });
   for (; presence != timeline.passing.end() && presence->enter_s < leave_s; ++presence) {
     if (presence->exit_s <= enter_s) continue;
+    const MovingDisk& disk = disks_[presence->disk];
     ++disks_examined_;
-    const double later_s = end_of_overlap(move, disks_[presence->disk], radius_cells, departure_s);
+    if (!may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
+    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
     if (later_s > departure_s) return later_s;
   }
   for (const Presence& rest : timeline.resting) {
     if (rest.enter_s >= leave_s) continue;
+    const MovingDisk& disk = disks_[rest.disk];
     ++disks_examined_;
-    const double later_s = end_of_overlap(move, disks_[rest.disk], radius_cells, departure_s);
+    if (!may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
+    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
     if (later_s > departure_s) return later_s;
   }
   return departure_s;
@@ -224,6 +231,7 @@ double ReservationTable::earliest_departure_plain(const Move& move, double radiu
   while (moved && departure_s <= until_s && departure_s < kForever) {
     moved = false;
     for (const MovingDisk& disk : disks_) {
+      if (disk.end_s == kRemoved) continue;
       const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
       moved = moved || later_s > departure_s;
       departure_s = later_s;

@@ -57,8 +57,8 @@ class ReservationTable {
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s);
 
   /// The same by looking at every disk: the plain twin, for tests and benchmarks.
-  /// Where two disks free the mover at the same instant, which of them is seen first may
-  /// move the answer by up to the contact slack; both answers are safe.
+  /// The answers are equal to the last bit: both are the least time in none of the open
+  /// intervals of unsafe departures, whatever the order in which disks were added.
   double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
   /// Disks looked at closely by earliest_departure since construction: a count of work.
@@ -89,7 +89,7 @@ class ReservationTable {
 
   template <class Visitor>
   void for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const;
-  /// Where departing at `departure_s` overlaps a disk met during the visit: the end of
+  /// Where departing at `departure_s` is unsafe for a disk met during the visit: the end of
   /// the unsafe departures around it. Else departure_s.
   double next_departure(const Move& move, const CellVisit& visit, double radius_cells, double departure_s);
   static double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
