@@ -41,6 +41,13 @@ OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, dou
 /// around `pardoned`; a way of no length is a point.
 bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);
 
+/// Whether a straight way, however long, stays outside the reach of a place: if so,
+/// unsafe_departures is empty for a disk that rests there (3).
+inline bool passes_by(const Displacement& way, Vec2 place, double reach) {
+  const double aside = cross(way.direction, place - way.from);
+  return reach * reach - aside * aside <= 2 * reach * kTouchDepthCells;
+}
+
 /// Cells. How much nearer than their reach two disks may seem to stay to each other, at a
 /// departure that counts as unsafe: its interval may have been moved outwards by one
 /// kContactSlackCells in time, each of the two bodies moves that far meanwhile, and the

@@ -176,7 +176,8 @@ void intervals_are_cut_by_every_disk(Filled& filled) {
         expected.remove_open(collision_interval(centre(cell), disk, radius + disk.radius));
       }
       RC_LOG() << "cell (" << cell.x << ", " << cell.y << ") radius " << radius << std::endl;
-      RC_ASSERT(filled.table().safe_intervals(cell, radius) == expected.intervals());
+      const std::span<const SafeInterval> safe = filled.table().safe_intervals(cell, radius);
+      RC_ASSERT(std::pmr::vector<Interval>(safe.begin(), safe.end()) == expected.intervals());
       for (const Interval& interval : expected.intervals()) {
         points += interval.end_s - interval.begin_s < 4 * kContactSlackCells;
       }
