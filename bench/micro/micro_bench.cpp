@@ -105,15 +105,15 @@ void unsafe_departures_of_a_move(benchmark::State& state) {
 }
 BENCHMARK(unsafe_departures_of_a_move)->Name("geometry/unsafe_departures");
 
-void overlap_of_a_departure(benchmark::State& state) {
+void quick_test_of_a_departure(benchmark::State& state) {
   const std::vector<Encounter> encounters = random_encounters();
   std::size_t next = 0;
   for ([[maybe_unused]] auto iteration : state) {
     const Encounter& encounter = encounters[next++ % kInputs];
-    benchmark::DoNotOptimize(departure_overlaps(encounter.move, 0, encounter.disk, 2 * kDefaultRadiusCells));
+    benchmark::DoNotOptimize(may_be_unsafe(encounter.move, 0, encounter.disk, 2 * kDefaultRadiusCells));
   }
 }
-BENCHMARK(overlap_of_a_departure)->Name("geometry/departure_overlaps");
+BENCHMARK(quick_test_of_a_departure)->Name("geometry/may_be_unsafe");
 
 /// The warehouse with a solved crowd in it; the last robot of the order is left out, so
 /// that it can be planned again and again.

@@ -77,16 +77,17 @@ class Span {
 void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Span& span) {
   const Stretch stretch = within_reach(end, move.way, reach);
   if (stretch.empty) return;
-  span.add(time_s - stretch.begin / move.speed, stretch.contact_at_begin);
-  span.add(time_s - stretch.end / move.speed, stretch.contact_at_end);
+  span.add(time_s - stretch.begin * move.seconds_per_cell, stretch.contact_at_begin);
+  span.add(time_s - stretch.end * move.seconds_per_cell, stretch.contact_at_end);
 }
 
 /// The mover stands at an end of its way, `after_s` seconds after departure.
 void add_mover_at(Vec2 end, double after_s, const MovingDisk& obstacle, double reach, Span& span) {
   const Stretch stretch = within_reach(end, obstacle.way, reach);
   if (stretch.empty) return;
-  span.add(obstacle.begin_s + stretch.begin / obstacle.speed - after_s, stretch.contact_at_begin);
-  span.add(obstacle.begin_s + stretch.end / obstacle.speed - after_s, stretch.contact_at_end);
+  const double seconds_per_cell = (obstacle.end_s - obstacle.begin_s) / obstacle.way.length;
+  span.add(obstacle.begin_s + stretch.begin * seconds_per_cell - after_s, stretch.contact_at_begin);
+  span.add(obstacle.begin_s + stretch.end * seconds_per_cell - after_s, stretch.contact_at_end);
 }
 
 /// Departures for which the two pass each other at exactly `reach`, both in motion.
@@ -123,16 +124,31 @@ OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double r
   return span.interval();
 }
 
+namespace {
+
+/// Past an obstacle at rest the mover is within reach of one point, on one stretch of its way.
+OpenInterval unsafe_past_rest(const Move& move, const MovingDisk& obstacle, double reach) {
+  const Stretch stretch = within_reach(obstacle.from, move.way, reach);
+  if (stretch.empty) return {};
+  const double slack_s = kContactSlackCells * move.seconds_per_cell;
+  const double begin_s = obstacle.begin_s - stretch.end * move.seconds_per_cell;
+  const double end_s = obstacle.end_s - stretch.begin * move.seconds_per_cell;
+  const OpenInterval unsafe{begin_s + (stretch.contact_at_end ? slack_s : -slack_s),
+                            end_s - (stretch.contact_at_begin ? slack_s : -slack_s)};
+  return unsafe.begin_s < unsafe.end_s ? unsafe : OpenInterval{};
+}
+
+}  // namespace
+
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach) {
   PLANNER_ASSERT(move.way.length > 0);
+  if (obstacle.at_rest()) return unsafe_past_rest(move, obstacle, reach);
   Span span(kContactSlackCells / std::max(move.speed, obstacle.speed));
   add_obstacle_at(obstacle.way.from, obstacle.begin_s, move, reach, span);
   add_obstacle_at(obstacle.way.to, obstacle.end_s, move, reach, span);
-  if (!obstacle.at_rest()) {
-    add_mover_at(move.way.from, 0, obstacle, reach, span);
-    add_mover_at(move.way.to, move.duration, obstacle, reach, span);
-    add_tangents(move, obstacle, reach, span);
-  }
+  add_mover_at(move.way.from, 0, obstacle, reach, span);
+  add_mover_at(move.way.to, move.duration, obstacle, reach, span);
+  add_tangents(move, obstacle, reach, span);
   return span.interval();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory_resource>
 #include <vector>
 
 #include "planner/geometry/interval.hpp"
@@ -11,8 +12,9 @@ namespace sipplab {
 /// Sorted, pairwise disjoint closed intervals of plan time; single points are kept.
 class IntervalSet {
  public:
-  /// [0, infinity).
-  IntervalSet() : intervals_{Interval{}} {}
+  /// [0, infinity), with memory from `memory`, which must outlive the set.
+  explicit IntervalSet(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : intervals_({Interval{}}, memory) {}
 
   /// Removes the open interval (begin_s, end_s). For every time t:
   ///  (1) if begin_s < t < end_s, then !contains(t) afterwards;
@@ -28,10 +30,10 @@ class IntervalSet {
   /// O(log size).
   bool contains(double t) const;
 
-  const std::vector<Interval>& intervals() const { return intervals_; }
+  const std::pmr::vector<Interval>& intervals() const { return intervals_; }
 
  private:
-  std::vector<Interval> intervals_;
+  std::pmr::vector<Interval> intervals_;
 };
 
 }  // namespace sipplab

@@ -27,13 +27,15 @@ struct Displacement {
 /// A displacement travelled at constant speed; when is not said.
 struct Move {
   Displacement way;
-  double speed = 1;     ///< cells per second, > 0
+  double speed = 1;  ///< cells per second, > 0
+  double seconds_per_cell = 1;
   double duration = 0;  ///< length / speed, in seconds
   Vec2 velocity;
 
   Move(const Displacement& displacement, double speed_cells_per_s)
       : way(displacement),
         speed(speed_cells_per_s),
+        seconds_per_cell(1 / speed_cells_per_s),
         duration(displacement.length / speed_cells_per_s),
         velocity(displacement.direction * speed_cells_per_s) {}
 };

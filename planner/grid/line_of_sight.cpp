@@ -63,43 +63,76 @@ CellRun swept_run(Cell displacement, double radius, std::int32_t row) {
   return mirror_x ? CellRun{-last, -first} : CellRun{first, last};
 }
 
+SweptRuns::SweptRuns(double radius, std::int32_t reach)
+    : radius_(radius),
+      reach_(reach),
+      begins_(static_cast<std::size_t>((kLongestKept + 1) * (kLongestKept + 1)), 0),
+      kept_(1) {}
+
+std::span<const CellRun> SweptRuns::of(Cell displacement) {
+  const auto rows = static_cast<std::size_t>(displacement.y + 2 * reach_ + 1);
+  if (displacement.x > kLongestKept || displacement.y > kLongestKept) {
+    scratch_.clear();
+    append(displacement, scratch_);
+    return scratch_;
+  }
+  std::uint32_t& begin =
+      begins_[static_cast<std::size_t>(displacement.y * (kLongestKept + 1) + displacement.x)];
+  if (begin == 0) {
+    begin = static_cast<std::uint32_t>(kept_.size());
+    append(displacement, kept_);
+  }
+  return std::span(kept_).subspan(begin, rows);
+}
+
+void SweptRuns::append(Cell displacement, std::vector<CellRun>& runs) const {
+  for (std::int32_t row = -reach_; row <= displacement.y + reach_; ++row) {
+    runs.push_back(swept_run(displacement, radius_, row));
+  }
+}
+
 LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
     : width_(map.width()),
       height_(map.height()),
       radius_(radius_cells),
-      reach_(static_cast<std::int32_t>(std::ceil(radius_cells - 0.5 - kTouchDepthCells))) {
+      reach_(static_cast<std::int32_t>(std::ceil(radius_cells - 0.5 - kTouchDepthCells))),
+      runs_(radius_cells, reach_) {
   const auto stride = static_cast<std::size_t>(width_) + 1;
   summed_.assign(stride * (static_cast<std::size_t>(height_) + 1), 0);
+  in_row_.assign(stride * static_cast<std::size_t>(height_), 0);
   for (std::int32_t y = 0; y < height_; ++y) {
     std::int32_t in_row = 0;
     for (std::int32_t x = 0; x < width_; ++x) {
       in_row += map.is_blocked({x, y}) ? 1 : 0;
-      const std::size_t below = (static_cast<std::size_t>(y) + 1) * stride + static_cast<std::size_t>(x) + 1;
-      summed_[below] = summed_[below - stride] + in_row;
+      const std::size_t here = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x) + 1;
+      in_row_[here] = in_row;
+      summed_[here + stride] = summed_[here] + in_row;
     }
   }
   legal_.assign(map.cell_count(), 0);
   for (std::int32_t y = reach_; y < height_ - reach_; ++y) {
     for (std::int32_t x = reach_; x < width_ - reach_; ++x) {
       bool free = true;
-      for (std::int32_t row = -reach_; row <= reach_ && free; ++row) {
-        const CellRun run = swept_run({0, 0}, radius_, row);
-        free = run.last < run.first || blocked_in(x + run.first, x + run.last, y + row, y + row) == 0;
+      std::int32_t row = y - reach_;
+      for (const CellRun run : runs_.of({0, 0})) {
+        free = free && (run.last < run.first || !is_blocked_in_row(x + run.first, x + run.last, row));
+        ++row;
       }
       legal_[index({x, y})] = free ? 1 : 0;
     }
   }
 }
 
-std::int32_t LineOfSight::blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0,
-                                     std::int32_t y1) const {
-  const auto left = static_cast<std::size_t>(std::max(x0, 0));
-  const auto right = static_cast<std::size_t>(std::min(x1, width_ - 1) + 1);
-  const auto top = static_cast<std::size_t>(std::max(y0, 0));
-  const auto bottom = static_cast<std::size_t>(std::min(y1, height_ - 1) + 1);
+bool LineOfSight::is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const {
   const auto stride = static_cast<std::size_t>(width_) + 1;
-  return summed_[bottom * stride + right] - summed_[bottom * stride + left] - summed_[top * stride + right] +
-         summed_[top * stride + left];
+  const std::int32_t* above = &summed_[static_cast<std::size_t>(y0) * stride];
+  const std::int32_t* below = &summed_[(static_cast<std::size_t>(y1) + 1) * stride];
+  return below[x1 + 1] - below[x0] - above[x1 + 1] + above[x0] != 0;
+}
+
+bool LineOfSight::is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const {
+  const std::int32_t* row = &in_row_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1)];
+  return row[x1 + 1] != row[x0];
 }
 
 bool LineOfSight::is_clear(Cell from, Cell to) const {
@@ -107,12 +140,18 @@ bool LineOfSight::is_clear(Cell from, Cell to) const {
   // Both ends lie inside the grid and so does all between them: the swept area is convex.
   const auto [left, right] = std::minmax({from.x, to.x});
   const auto [top, bottom] = std::minmax({from.y, to.y});
-  if (blocked_in(left - reach_, right + reach_, top - reach_, bottom + reach_) == 0) return true;
-  const Cell displacement{to.x - from.x, to.y - from.y};
-  for (std::int32_t y = top - reach_; y <= bottom + reach_; ++y) {
-    const CellRun run = swept_run(displacement, radius_, y - from.y);
-    if (run.last < run.first) continue;
-    if (blocked_in(from.x + run.first, from.x + run.last, y, y) != 0) return false;
+  if (!is_blocked_in(left - reach_, right + reach_, top - reach_, bottom + reach_)) return true;
+  // The runs are those of a way to the right and downwards: mirror what they mean.
+  const std::int32_t down = to.y < from.y ? -1 : 1;
+  const bool to_the_right = to.x >= from.x;
+  std::int32_t y = from.y - down * reach_;
+  for (const CellRun run : runs_.of({right - left, bottom - top})) {
+    if (run.last >= run.first) {
+      const bool blocked = to_the_right ? is_blocked_in_row(from.x + run.first, from.x + run.last, y)
+                                        : is_blocked_in_row(from.x - run.last, from.x - run.first, y);
+      if (blocked) return false;
+    }
+    y += down;
   }
   return true;
 }

@@ -4,17 +4,54 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planner/grid/grid_map.hpp"
 
 namespace sipplab {
 
+/// The run of columns [first, last] that the swept disk overlaps in one row of cells.
+struct CellRun {
+  std::int32_t first = 0;
+  std::int32_t last = -1;  ///< less than `first`: none
+};
+
+/// Cells whose inside a disk of `radius` overlaps by more than kTouchDepthCells while it
+/// moves from (0, 0) to `displacement`, in the row of cells `row`.
+CellRun swept_run(Cell displacement, double radius, std::int32_t row);
+
+/// The runs of all rows that a disk of one radius sweeps, for displacements with no
+/// negative component; others follow by reflection. Kept once they were asked for.
+class SweptRuns {
+ public:
+  /// Displacements longer than this many cells in either direction are made anew each
+  /// time: they are rare, and the table must stay small (at most 4 MiB).
+  static constexpr std::int32_t kLongestKept = 64;
+
+  /// `reach`: rows above and below the way that the disk can overlap.
+  SweptRuns(double radius, std::int32_t reach);
+
+  /// Runs for rows -reach..displacement.y + reach, in order. Valid until the next call.
+  /// REQUIRES: displacement.x >= 0 and displacement.y >= 0.
+  std::span<const CellRun> of(Cell displacement);
+
+ private:
+  void append(Cell displacement, std::vector<CellRun>& runs) const;
+
+  double radius_;
+  std::int32_t reach_;
+  std::vector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not there yet
+  std::vector<CellRun> kept_;
+  std::vector<CellRun> scratch_;
+};
+
 /// Line of sight over one map for disks of one radius.
 ///
 /// The swept area of a move is a capsule. In each row of cells it covers one run of
-/// cells, whose ends follow in closed form from the capsule's extent in that row; a
-/// summed-area table of blocked cells then decides the row in four look-ups.
+/// cells, whose ends follow in closed form from the capsule's extent in that row. The
+/// runs of a displacement are kept from its first use on; sums of blocked cells along
+/// each row decide a row in two look-ups. For one thread at a time.
 class LineOfSight {
  public:
   /// `radius_cells` > 0. O(cells).
@@ -44,25 +81,19 @@ class LineOfSight {
     return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(cell.x);
   }
-  /// Blocked cells in columns x0..x1 and rows y0..y1, both included, cut to the grid.
-  std::int32_t blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const;
+  /// Whether columns x0..x1 of rows y0..y1, all included and inside the grid, hold a
+  /// blocked cell.
+  bool is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const;
+  bool is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const;
 
   std::int32_t width_;
   std::int32_t height_;
   double radius_;
   std::int32_t reach_;                ///< cells beside its own that the disk can overlap
-  std::vector<std::int32_t> summed_;  ///< (width + 1) x (height + 1)
+  std::vector<std::int32_t> summed_;  ///< blocked cells above and left: (width + 1) x (height + 1)
+  std::vector<std::int32_t> in_row_;  ///< blocked cells to the left: (width + 1) x height
   std::vector<std::uint8_t> legal_;
+  mutable SweptRuns runs_;
 };
-
-/// The run of columns [first, last] that the swept disk overlaps in one row of cells.
-struct CellRun {
-  std::int32_t first = 0;
-  std::int32_t last = -1;  ///< less than `first`: none
-};
-
-/// Cells whose inside a disk of `radius` overlaps by more than kTouchDepthCells while it
-/// moves from (0, 0) to `displacement`, in the row of cells `row`.
-CellRun swept_run(Cell displacement, double radius, std::int32_t row);
 
 }  // namespace sipplab

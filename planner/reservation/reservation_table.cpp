@@ -12,6 +12,15 @@
 namespace sipplab {
 namespace {
 
+/// End of a disk that was removed: before every beginning.
+constexpr double kRemoved = -kForever;
+
+/// Room that a timeline begins with: most have this many entries at the end or more.
+constexpr std::size_t kFirstPresences = 8;
+
+/// Bytes for each cell that are set aside at first.
+constexpr std::size_t kBytesPerCell = 256;
+
 /// Half the side of a cell.
 constexpr double kHalfCell = 0.5;
 
@@ -33,18 +42,24 @@ Span slab(double position, double step, double middle, double half, double lengt
 }  // namespace
 
 ReservationTable::ReservationTable(const GridMap& map, double max_radius_cells)
-    : map_(map), max_radius_(max_radius_cells), timelines_(map.cell_count()) {}
+    : map_(map),
+      max_radius_(max_radius_cells),
+      memory_(kBytesPerCell * map.cell_count()),
+      visits_(static_cast<std::size_t>(map.width() + map.height())) {
+  timelines_.reserve(map.cell_count());
+  while (timelines_.size() < map.cell_count()) timelines_.emplace_back(&memory_);
+}
 
 void ReservationTable::clear() {
   for (const std::size_t cell : used_cells_) {
     Timeline& timeline = timelines_[cell];
     timeline.passing.clear();
     timeline.resting.clear();
-    timeline.longest_s = 0;
     timeline.safe_radius = -1;
   }
   used_cells_.clear();
   disks_.clear();
+  answered_.clear();
   keepouts_.clear();
 }
 
@@ -76,30 +91,54 @@ void ReservationTable::for_each_cell_near(const MovingDisk& disk, Visitor&& visi
   }
 }
 
+const ReservationTable::Presence* ReservationTable::Timeline::first_after(double time_s) const {
+  const Presence* first = passing.data();
+  // Halving without branches: which half is as good as random.
+  for (std::size_t left = passing.size(); left > 0;) {
+    const std::size_t half = left / 2;
+    const bool over = first[half].latest_exit_s <= time_s;
+    first = over ? first + half + 1 : first;
+    left = over ? left - half - 1 : half;
+  }
+  return first;
+}
+
+void ReservationTable::Timeline::insert(const Presence& presence) {
+  if (passing.capacity() == 0) passing.reserve(kFirstPresences);
+  auto place =
+      std::upper_bound(passing.begin(), passing.end(), presence.enter_s,
+                       [](double enter_s, const Presence& other) { return enter_s < other.enter_s; });
+  place = passing.insert(place, presence);
+  if (place != passing.begin()) {
+    place->latest_exit_s = std::max(presence.exit_s, std::prev(place)->latest_exit_s);
+  }
+  while (++place != passing.end() && place->latest_exit_s < presence.exit_s) {
+    place->latest_exit_s = presence.exit_s;
+  }
+}
+
 ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
   const auto id = static_cast<DiskId>(disks_.size());
   disks_.push_back(disk);
+  answered_.push_back(0);
   for_each_cell_near(disk, [&](std::size_t cell, Span near) {
     Timeline& timeline = timelines_[cell];
-    if (timeline.passing.empty() && timeline.resting.empty()) used_cells_.push_back(cell);
+    if (timeline.is_empty()) used_cells_.push_back(cell);
     if (timeline.safe_radius >= 0) {
       timeline.safe.remove_open(
           collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius));
     }
     if (disk.end_s == kForever) {
-      timeline.resting.push_back({disk.begin_s, kForever, id});
+      timeline.resting.push_back({disk.begin_s, kForever, kForever, id});
       return;
     }
-    Presence presence{disk.begin_s, disk.end_s, id};
+    double enter_s = disk.begin_s;
+    double exit_s = disk.end_s;
     if (!disk.at_rest()) {
-      presence.enter_s = disk.begin_s + near.begin / disk.speed;
-      if (near.end < disk.way.length) presence.exit_s = disk.begin_s + near.end / disk.speed;
+      enter_s = disk.begin_s + near.begin / disk.speed;
+      if (near.end < disk.way.length) exit_s = disk.begin_s + near.end / disk.speed;
     }
-    timeline.longest_s = std::max(timeline.longest_s, presence.exit_s - presence.enter_s);
-    const auto place =
-        std::upper_bound(timeline.passing.begin(), timeline.passing.end(), presence.enter_s,
-                         [](double enter_s, const Presence& other) { return enter_s < other.enter_s; });
-    timeline.passing.insert(place, presence);
+    timeline.insert({enter_s, exit_s, exit_s, id});
   });
   return id;
 }
@@ -110,13 +149,14 @@ void ReservationTable::remove(DiskId id) {
   for_each_cell_near(disk, [&](std::size_t cell, Span) {
     Timeline& timeline = timelines_[cell];
     timeline.safe_radius = -1;
-    std::vector<Presence>& presences = disk.end_s == kForever ? timeline.resting : timeline.passing;
+    std::pmr::vector<Presence>& presences = disk.end_s == kForever ? timeline.resting : timeline.passing;
     const auto place = std::find_if(presences.begin(), presences.end(),
                                     [id](const Presence& presence) { return presence.disk == id; });
     PLANNER_ASSERT(place != presences.end());
+    // latest_exit_s of those behind it may be too late now, which costs time only.
     presences.erase(place);
   });
-  disks_[id].end_s = disks_[id].begin_s;  // a disk that is nowhere at any time
+  disks_[id].end_s = kRemoved;
 }
 
 void ReservationTable::add(const Trajectory& trajectory, double radius_cells) {
@@ -137,14 +177,13 @@ bool ReservationTable::is_kept_out(const Displacement& way, double radius_cells)
   });
 }
 
-const std::vector<SafeInterval>& ReservationTable::safe_intervals(Cell cell, double radius_cells) {
-  static const std::vector<SafeInterval> kNever;
-  if (is_kept_out(Displacement(centre(cell), centre(cell)), radius_cells)) return kNever;
+std::span<const SafeInterval> ReservationTable::safe_intervals(Cell cell, double radius_cells) {
+  if (!keepouts_.empty() && is_kept_out(Displacement(centre(cell), centre(cell)), radius_cells)) return {};
   Timeline& timeline = timelines_[map_.index(cell)];
   if (timeline.safe_radius != radius_cells) {
     timeline.safe.reset();
     timeline.safe_radius = radius_cells;
-    for (const std::vector<Presence>* presences : {&timeline.passing, &timeline.resting}) {
+    for (const std::pmr::vector<Presence>* presences : {&timeline.passing, &timeline.resting}) {
       for (const Presence& presence : *presences) {
         const MovingDisk& disk = disks_[presence.disk];
         timeline.safe.remove_open(collision_interval(centre(cell), disk, radius_cells + disk.radius));
@@ -156,63 +195,84 @@ const std::vector<SafeInterval>& ReservationTable::safe_intervals(Cell cell, dou
 
 double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                                         double departure_s) {
-  const double reach = radius_cells + disk.radius;
-  if (!departure_overlaps(move, departure_s, disk, reach)) return departure_s;
-  const OpenInterval unsafe = unsafe_departures(move, disk, reach);
+  const OpenInterval unsafe = unsafe_departures(move, disk, radius_cells + disk.radius);
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
 double ReservationTable::next_departure(const Move& move, const CellVisit& visit, double radius_cells,
-                                        double departure_s) {
+                                        double departure_s, DiskId& blocker) {
   const Timeline& timeline = timelines_[visit.cell];
-  const double enter_s = departure_s + visit.enter_s;
-  const double leave_s = departure_s + visit.leave_s;
-  auto presence =
-      std::lower_bound(timeline.passing.begin(), timeline.passing.end(), enter_s - timeline.longest_s,
-                       [](const Presence& other, double time_s) { return other.enter_s < time_s; });
-  for (; presence != timeline.passing.end() && presence->enter_s < leave_s; ++presence) {
-    if (presence->exit_s <= enter_s) continue;
+  // Unsafe departures may reach a little beyond the time that is spent near a disk.
+  const double margin_s = kNearMissCells * move.seconds_per_cell;
+  const double enter_s = departure_s + visit.enter_s - margin_s;
+  const double leave_s = departure_s + visit.leave_s + margin_s;
+  const Presence* const end = timeline.passing.data() + timeline.passing.size();
+  for (const Presence* presence = timeline.first_after(enter_s); presence != end; ++presence) {
+    if (presence->enter_s >= leave_s) break;
+    if (presence->exit_s <= enter_s || !is_news(presence->disk)) continue;
+    const MovingDisk& disk = disks_[presence->disk];
     ++disks_examined_;
-    const double later_s = end_of_overlap(move, disks_[presence->disk], radius_cells, departure_s);
-    if (later_s > departure_s) return later_s;
+    if (!may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
+    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
+    if (later_s > departure_s) {
+      blocker = presence->disk;
+      return later_s;
+    }
   }
   for (const Presence& rest : timeline.resting) {
-    if (rest.enter_s >= leave_s) continue;
+    if (rest.enter_s >= leave_s || !is_news(rest.disk)) continue;
+    const MovingDisk& disk = disks_[rest.disk];
     ++disks_examined_;
-    const double later_s = end_of_overlap(move, disks_[rest.disk], radius_cells, departure_s);
-    if (later_s > departure_s) return later_s;
+    if (passes_by(move.way, disk.from, radius_cells + disk.radius)) continue;
+    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
+    if (later_s > departure_s) {
+      blocker = rest.disk;
+      return later_s;
+    }
   }
   return departure_s;
 }
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
-                                            double until_s) {
-  if (is_kept_out(move.way, radius_cells)) return kForever;
+                                            double until_s, DiskId* likely_blocker) {
+  if (!keepouts_.empty() && is_kept_out(move.way, radius_cells)) return kForever;
   double departure_s = from_s;
+  DiskId blocker = likely_blocker ? *likely_blocker : kNoDisk;
+  if (blocker != kNoDisk) {
+    departure_s = end_of_overlap(move, disks_[blocker], radius_cells, departure_s);
+    if (departure_s > until_s || departure_s == kForever) return departure_s;
+  }
   // Every visit must be seen clear at the same departure: go round until all were, in a
   // row. Each jump ends where an unsafe interval ends, so no safe departure is missed.
   CellWalk walk(map_, move);
-  visits_.clear();
+  std::size_t known = 0;  // visits_ that were made for this way
   std::size_t at = 0;
   std::size_t clear_in_a_row = 0;
-  while (!walk.done() || clear_in_a_row < visits_.size()) {
-    if (at == visits_.size()) {
+  ++question_;
+  while (!walk.done() || clear_in_a_row < known) {
+    if (at == known) {
       if (walk.done()) {
         at = 0;
       } else {
-        visits_.push_back(walk.next());
+        visits_[known++] = walk.next();
       }
     }
-    const double later_s = next_departure(move, visits_[at], radius_cells, departure_s);
+    const bool deserted = timelines_[visits_[at].cell].is_empty();
+    const double later_s =
+        deserted ? departure_s : next_departure(move, visits_[at], radius_cells, departure_s, blocker);
     if (later_s > departure_s) {
       departure_s = later_s;
-      if (departure_s > until_s || departure_s == kForever) return departure_s;
+      if (departure_s > until_s || departure_s == kForever) break;
       clear_in_a_row = 0;
+      // Another departure, another question, except for the disk that was just answered.
+      ++question_;
+      answered_[blocker] = question_;
     } else {
       ++clear_in_a_row;
       ++at;
     }
   }
+  if (likely_blocker) *likely_blocker = blocker;
   return departure_s;
 }
 
@@ -224,6 +284,7 @@ double ReservationTable::earliest_departure_plain(const Move& move, double radiu
   while (moved && departure_s <= until_s && departure_s < kForever) {
     moved = false;
     for (const MovingDisk& disk : disks_) {
+      if (disk.end_s == kRemoved) continue;
       const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
       moved = moved || later_s > departure_s;
       departure_s = later_s;

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/geometry/interval_set.hpp"
@@ -24,9 +26,12 @@ namespace sipplab {
 class ReservationTable {
  public:
   using DiskId = std::uint32_t;
+  static constexpr DiskId kNoDisk = UINT32_MAX;
 
   /// For robots of radius up to `max_radius_cells` that ask.
   ReservationTable(const GridMap& map, double max_radius_cells);
+  ReservationTable(const ReservationTable&) = delete;
+  ReservationTable& operator=(const ReservationTable&) = delete;
 
   /// Forgets all disks; keeps memory for the next try.
   void clear();
@@ -47,18 +52,22 @@ class ReservationTable {
   /// Maximal closed spans in which a disk of this radius may stay at the cell, in
   /// order. Valid until a disk is added or removed. O(1) unless the radius is another than
   /// at the last call for this cell or a disk near it was removed since.
-  const std::vector<SafeInterval>& safe_intervals(Cell cell, double radius_cells);
+  std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells);
 
   /// The least departure t >= from_s for which the move overlaps no disk. Gives up as
   /// soon as every departure up to until_s is known to be unsafe and then returns
   /// some lower bound on the least safe departure that is greater than until_s; kForever
   /// where no departure from from_s on is safe.
+  /// Of the disks that stood in the way, the last is stored in `likely_blocker` and is
+  /// looked at first by the next query: who asks for similar moves passes the same variable,
+  /// kNoDisk at first. The answer does not depend on it.
   /// REQUIRES: the move joins two different cell centres of the map.
-  double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s);
+  double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s,
+                            DiskId* likely_blocker = nullptr);
 
   /// The same by looking at every disk: the plain twin, for tests and benchmarks.
-  /// Where two disks free the mover at the same instant, which of them is seen first may
-  /// move the answer by up to the contact slack; both answers are safe.
+  /// The answers are equal to the last bit: both are the least time in none of the open
+  /// intervals of unsafe departures, whatever the order in which disks were added.
   double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
   /// Disks looked at closely by earliest_departure since construction: a count of work.
@@ -69,16 +78,26 @@ class ReservationTable {
   struct Presence {
     double enter_s;
     double exit_s;
+    double latest_exit_s;  ///< of this and all before it in the timeline
     DiskId disk;
   };
   struct Timeline {
-    std::vector<Presence> passing;  ///< sorted by enter_s; finite
-    std::vector<Presence> resting;  ///< for ever from enter_s on
-    double longest_s = 0;           ///< no passing presence is longer
+    explicit Timeline(std::pmr::memory_resource* memory) : passing(memory), resting(memory), safe(memory) {}
+    Timeline(Timeline&&) = default;
+    Timeline(const Timeline&) = delete;  // a copy would take its memory elsewhere
+
+    std::pmr::vector<Presence> passing;  ///< sorted by enter_s; finite
+    std::pmr::vector<Presence> resting;  ///< for ever from enter_s on
     /// Safe intervals of the cell for robots of `safe_radius`, kept up to date as disks are
     /// added; negative: to be computed when asked for.
     IntervalSet safe;
     double safe_radius = -1;
+
+    bool is_empty() const { return passing.empty() && resting.empty(); }
+    /// A finite presence. O(log size + those behind it).
+    void insert(const Presence& presence);
+    /// The first passing presence that may end after `time_s`. O(log size).
+    const Presence* first_after(double time_s) const;
   };
   struct Keepout {
     Vec2 place;
@@ -89,19 +108,27 @@ class ReservationTable {
 
   template <class Visitor>
   void for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const;
-  /// Where departing at `departure_s` overlaps a disk met during the visit: the end of
-  /// the unsafe departures around it. Else departure_s.
-  double next_departure(const Move& move, const CellVisit& visit, double radius_cells, double departure_s);
+  /// Where departing at `departure_s` is unsafe for a disk met during the visit: the end of
+  /// the unsafe departures around it, and the disk in `blocker`. Else departure_s.
+  double next_departure(const Move& move, const CellVisit& visit, double radius_cells, double departure_s,
+                        DiskId& blocker);
+  /// Whether the disk was not looked at yet for this move and departure: it may be near
+  /// several cells of the way.
+  bool is_news(DiskId id) { return std::exchange(answered_[id], question_) != question_; }
   static double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                                double departure_s);
 
   const GridMap& map_;
   double max_radius_;
+  /// Where the timelines lie: many small arrays that grow and are dropped together.
+  std::pmr::monotonic_buffer_resource memory_;
   std::vector<MovingDisk> disks_;
+  std::uint64_t question_ = 0;           ///< number of a move and departure that is asked about
+  std::vector<std::uint64_t> answered_;  ///< by disk: the last question for which it was looked at
   std::vector<Timeline> timelines_;
   std::vector<Keepout> keepouts_;
   std::vector<std::size_t> used_cells_;  ///< timelines that are not empty
-  std::vector<CellVisit> visits_;        ///< scratch
+  std::vector<CellVisit> visits_;        ///< scratch, with room for the longest way
   std::uint64_t disks_examined_ = 0;
 };
 

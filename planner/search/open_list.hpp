@@ -1,6 +1,6 @@
 // OPEN: nodes by least f, then greatest g, then first come. Besides settled nodes it
 // holds promises: ways to a node whose arrival is only bounded from below so far.
-// Entries that were overtaken stay in the heap and are recognised when they come up.
+// Entries that were overtaken stay in the list and are recognised when they come up.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 namespace sipplab {
 
+/// Entries wait unsorted in buckets of equal width in f. Only the bucket from which
+/// entries are popped is a heap: most entries of the later ones are never looked at again.
 class OpenList {
  public:
   struct Entry {
@@ -25,35 +27,46 @@ class OpenList {
     bool is_promise() const { return from != kNoNode; }
   };
 
-  bool empty() const { return heap_.empty(); }
+  bool empty() const { return size_ == 0; }
 
-  void clear() {
+  /// Empties the list for a search whose f values begin near `least_f`; the order does not
+  /// depend on these two, the speed does. REQUIRES: bucket_width > 0.
+  void begin(double least_f, double bucket_width) {
     heap_.clear();
+    for (std::size_t i = current_; i < later_.size(); ++i) later_[i].clear();
+    least_f_ = least_f;
+    buckets_per_unit_ = 1 / bucket_width;
+    current_ = 0;
+    size_ = 0;
     pushed_ = 0;
   }
 
-  /// A node with its arrival. O(log size).
+  /// A node with its arrival. O(log size of a bucket).
   void push(NodeId node, double f, double arrival_s) {
     push({f, arrival_s, node, kNoNode, kNoNode, pushed_});
   }
 
-  /// A promise. O(log size).
+  /// A promise. O(log size of a bucket).
   void push_promise(NodeId node, double f, double arrival_s, NodeId from, NodeId parent) {
     push({f, arrival_s, node, from, parent, pushed_});
   }
 
-  /// O(log size). REQUIRES: !empty().
+  /// O(log size of a bucket). REQUIRES: !empty().
   Entry pop_min() {
+    while (heap_.empty()) open_next_bucket();
     const Entry least = heap_.front();
     const Entry moved = heap_.back();
     heap_.pop_back();
-    if (!heap_.empty()) sift_down(moved);
+    --size_;
+    if (!heap_.empty()) sift_down(0, moved);
     return least;
   }
 
  private:
   /// Children of a heap node. Four lie in two cache lines and halve the depth of two.
   static constexpr std::size_t kArity = 4;
+  /// What lies farther away than this many buckets shares the last one.
+  static constexpr std::size_t kLastBucket = 1023;
 
   static bool comes_before(const Entry& a, const Entry& b) {
     if (a.f != b.f) return a.f < b.f;
@@ -61,8 +74,32 @@ class OpenList {
     return a.sequence < b.sequence;
   }
 
+  std::size_t bucket_of(double f) const {
+    const double bucket = (f - least_f_) * buckets_per_unit_;
+    if (!(bucket < static_cast<double>(kLastBucket))) return kLastBucket;
+    return bucket > 0 ? static_cast<std::size_t>(bucket) : 0;
+  }
+
   void push(const Entry& entry) {
     ++pushed_;
+    ++size_;
+    const std::size_t bucket = bucket_of(entry.f);
+    if (bucket <= current_) {
+      sift_up(entry);
+      return;
+    }
+    if (bucket >= later_.size()) later_.resize(bucket + 1);
+    later_[bucket].push_back(entry);
+  }
+
+  void open_next_bucket() {
+    ++current_;
+    heap_.swap(later_[current_]);
+    if (heap_.size() < 2) return;
+    for (std::size_t i = (heap_.size() - 2) / kArity + 1; i-- > 0;) sift_down(i, Entry{heap_[i]});
+  }
+
+  void sift_up(const Entry& entry) {
     std::size_t hole = heap_.size();
     heap_.push_back(entry);
     while (hole > 0) {
@@ -74,9 +111,8 @@ class OpenList {
     heap_[hole] = entry;
   }
 
-  /// Puts `entry` in place of the root.
-  void sift_down(const Entry& entry) {
-    std::size_t hole = 0;
+  /// Puts `entry` at `hole` or where it belongs below it.
+  void sift_down(std::size_t hole, const Entry& entry) {
     while (true) {
       const std::size_t first = hole * kArity + 1;
       if (first >= heap_.size()) break;
@@ -92,7 +128,12 @@ class OpenList {
     heap_[hole] = entry;
   }
 
-  std::vector<Entry> heap_;
+  std::vector<Entry> heap_;                ///< the bucket at current_ and all before it
+  std::vector<std::vector<Entry>> later_;  ///< by bucket; those up to current_ are empty
+  double least_f_ = 0;
+  double buckets_per_unit_ = 1;
+  std::size_t current_ = 0;
+  std::size_t size_ = 0;
   std::uint32_t pushed_ = 0;
 };
 

@@ -14,10 +14,11 @@ using NodeId = std::uint32_t;
 inline constexpr NodeId kNoNode = UINT32_MAX;
 
 struct SippNode {
-  Cell cell;
   SafeInterval interval;
   double arrival_s = kForever;  ///< earliest known; kForever: not reached yet
   double departure_s = 0;       ///< when the parent is left to arrive then
+  double to_goal_s = 0;         ///< the heuristic: a lower bound on the time from here to the goal
+  Cell cell;
   NodeId parent = kNoNode;
 };
 

@@ -1,12 +1,17 @@
 #include "planner/search/sipp_search.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "planner/core/assert.hpp"
 #include "planner/grid/neighbourhood.hpp"
 
 namespace sipplab {
 namespace {
+
+/// Width of a bucket of OPEN, in cells of way: small enough that few entries are sorted for
+/// nothing, wide enough that few buckets are empty.
+constexpr double kBucketCells = 0.25;
 
 /// Expansions between two looks at the clock; one takes some microseconds.
 constexpr std::uint64_t kExpansionsPerClockCheck = 64;
@@ -19,13 +24,13 @@ SippSearch::SippSearch(const Instance& instance, SippOptions options)
     const auto known = std::find_if(lines_of_sight_.begin(), lines_of_sight_.end(), [&](const auto& other) {
       return other->radius_cells() == agent.radius_cells;
     });
-    if (known == lines_of_sight_.end()) {
-      lines_of_sight_.push_back(std::make_unique<LineOfSight>(instance.map, agent.radius_cells));
-      line_of_sight_of_.push_back(lines_of_sight_.back().get());
-    } else {
-      line_of_sight_of_.push_back(known->get());
-    }
+    radius_of_.push_back(static_cast<std::size_t>(known - lines_of_sight_.begin()));
+    if (known != lines_of_sight_.end()) continue;
+    lines_of_sight_.push_back(std::make_unique<LineOfSight>(instance.map, agent.radius_cells));
+    step_tables_.push_back(std::make_unique<StepTable>(*lines_of_sight_.back(), instance.map.cell_count(),
+                                                       options.connectedness));
   }
+  for (const Cell step : neighbourhood(options.connectedness)) step_lengths_.push_back(norm(centre(step)));
 }
 
 Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, ReservationTable& reservations,
@@ -81,11 +86,14 @@ double SippSearch::lower_bound_s(AgentIndex agent) const {
 
 void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
   agent_ = &instance_.agents[agent];
-  line_of_sight_ = line_of_sight_of_[agent];
+  line_of_sight_ = lines_of_sight_[radius_of_[agent]].get();
+  steps_ = step_tables_[radius_of_[agent]].get();
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
-  open_.clear();
+  straight_ways_.clear();
+  shot_blocker_ = ReservationTable::kNoDisk;
+  open_.begin(lower_bound_s(agent), kBucketCells / agent_->speed_cells_per_s);
 }
 
 SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
@@ -93,9 +101,11 @@ SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
   if (nodes.search != search_) {
     nodes.search = search_;
     nodes.first = static_cast<NodeId>(nodes_.size());
+    const double to_goal_s = lower_bound_s(cell, agent_->goal);
     for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
-      nodes_.push_back({cell, interval, kForever, 0, kNoNode});
+      nodes_.push_back({interval, kForever, 0, to_goal_s, cell, kNoNode});
     }
+    straight_ways_.resize(nodes_.size());
     nodes.last = static_cast<NodeId>(nodes_.size());
   }
   return nodes;
@@ -111,42 +121,43 @@ double SippSearch::travel_s(Cell from, Cell to) const {
   return distance(from, to) / agent_->speed_cells_per_s;
 }
 
-double SippSearch::f(const SippNode& node) const {
-  return node.arrival_s + lower_bound_s(node.cell, agent_->goal);
-}
-
 bool SippSearch::is_goal(const SippNode& node) const {
   return node.cell == agent_->goal && node.interval.end_s == kForever;
 }
 
 void SippSearch::expand(NodeId id, SearchStatistics& statistics) {
   const Cell here = nodes_[id].cell;
-  for (const Cell step : neighbourhood(options_.connectedness)) {
-    const Cell cell{here.x + step.x, here.y + step.y};
-    if (!line_of_sight_->is_legal(cell) || !line_of_sight_->is_clear(here, cell)) continue;
-    const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
+  const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
+  const std::span<const Cell> steps = neighbourhood(options_.connectedness);
+  std::uint32_t clear = steps_->clear_steps(here, instance_.map.index(here));
+  for (; clear != 0; clear &= clear - 1) {
+    const auto step = static_cast<std::size_t>(std::countr_zero(clear));
+    const Cell cell{here.x + steps[step].x, here.y + steps[step].y};
     const bool straight = parent != kNoNode && nodes_[parent].cell != cell &&
                           line_of_sight_->is_clear(nodes_[parent].cell, cell);
-    offer(id, straight ? parent : kNoNode, cell, statistics);
+    offer(id, straight ? parent : kNoNode, cell, step_lengths_[step] / agent_->speed_cells_per_s, statistics);
   }
 }
 
-void SippSearch::offer(NodeId from, NodeId parent, Cell cell, SearchStatistics& statistics) {
+void SippSearch::offer(NodeId from, NodeId parent, Cell cell, double step_s, SearchStatistics& statistics) {
   const CellNodes targets = nodes_of(cell);
-  // By the triangle inequality nobody arrives sooner than straight from the parent.
   const SippNode& near = nodes_[from];
   const SippNode& far = nodes_[parent == kNoNode ? from : parent];
-  const double soonest_s = far.arrival_s + travel_s(far.cell, cell);
-  const double latest_s = std::max(near.interval.end_s + travel_s(near.cell, cell),
-                                   far.interval.end_s + travel_s(far.cell, cell));
-  const double to_goal_s = lower_bound_s(cell, agent_->goal);
+  const double straight_s = parent == kNoNode ? step_s : travel_s(far.cell, cell);
+  const double latest_s = std::max(near.interval.end_s + step_s, far.interval.end_s + straight_s);
   for (NodeId id = targets.first; id != targets.last; ++id) {
     const SippNode& target = nodes_[id];
     if (target.interval.begin_s > latest_s) return;
+    // By the triangle inequality nobody arrives sooner than straight from the parent.
+    double soonest_s = far.arrival_s + straight_s;
+    if (const StraightWay& way = straight_ways_[id];
+        way.from == parent && parent != kNoNode && way.from_arrival_s == far.arrival_s) {
+      soonest_s = std::min(std::max(soonest_s, way.departure_s + straight_s), near.arrival_s + step_s);
+    }
     const double arrival_s = std::max(soonest_s, target.interval.begin_s);
     if (arrival_s > target.interval.end_s || arrival_s >= target.arrival_s) continue;
     if (options_.lazy_evaluation) {
-      open_.push_promise(id, arrival_s + to_goal_s, arrival_s, from, parent);
+      open_.push_promise(id, arrival_s + target.to_goal_s, arrival_s, from, parent);
     } else if (relax(from, parent, id, statistics)) {
       open_.push(id, f(target), target.arrival_s);
     }
@@ -154,27 +165,74 @@ void SippSearch::offer(NodeId from, NodeId parent, Cell cell, SearchStatistics& 
 }
 
 bool SippSearch::relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics) {
-  const bool straight = parent != kNoNode && arrive(parent, id, Tie::kKeep);
   // Of two ways that arrive together the one over the nearer node is kept: it leaves the
   // cells behind it sooner (trials on the paper's warehouse: 1 % less flowtime).
-  const bool stepwise = arrive(from, id, straight ? Tie::kReplace : Tie::kKeep);
-  if (!straight && !stepwise) return false;
-  ++statistics.generations;
-  return true;
+  bool improved = false;
+  if (parent == kNoNode) {
+    improved = arrive_by_step(from, id, Tie::kKeep);
+  } else if (is_on_the_way(parent, from, id)) {
+    improved = arrive_by_step(from, id, Tie::kKeep);
+    // Without a wait the step is as good as the straight way.
+    const SippNode& target = nodes_[id];
+    const bool at_once = improved && target.departure_s == nodes_[from].arrival_s;
+    if (!at_once) improved = arrive_straight(parent, id) || improved;
+  } else {
+    improved = arrive_straight(parent, id);
+    improved = arrive_by_step(from, id, improved ? Tie::kReplace : Tie::kKeep) || improved;
+  }
+  if (improved) ++statistics.generations;
+  return improved;
 }
 
-bool SippSearch::arrive(NodeId from, NodeId id, Tie tie) {
-  const SippNode& origin = nodes_[from];
-  SippNode& target = nodes_[id];
-  const Move move(Displacement(centre(origin.cell), centre(target.cell)), agent_->speed_cells_per_s);
-  // Departures that reach this interval, and among them those that improve on it.
-  const double from_s = std::max(origin.arrival_s, target.interval.begin_s - move.duration);
-  const double until_s = std::min(
-      {origin.interval.end_s, target.interval.end_s - move.duration, target.arrival_s - move.duration});
+bool SippSearch::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
+  const Cell first = nodes_[parent].cell;
+  const Cell middle = nodes_[from].cell;
+  const Cell last = nodes_[id].cell;
+  const std::int64_t cross = std::int64_t{middle.x - first.x} * (last.y - middle.y) -
+                             std::int64_t{middle.y - first.y} * (last.x - middle.x);
+  const std::int64_t dot = std::int64_t{middle.x - first.x} * (last.x - middle.x) +
+                           std::int64_t{middle.y - first.y} * (last.y - middle.y);
+  return cross == 0 && dot > 0;
+}
+
+bool SippSearch::arrive_straight(NodeId parent, NodeId id) {
+  const SippNode& origin = nodes_[parent];
+  const SippNode& target = nodes_[id];
+  StraightWay& known = straight_ways_[id];
+  const double duration_s = travel_s(origin.cell, target.cell);
+  double from_s = std::max(origin.arrival_s, target.interval.begin_s - duration_s);
+  if (known.from == parent && known.from_arrival_s == origin.arrival_s) {
+    from_s = std::max(from_s, known.departure_s);
+  }
+  const double until_s = latest_departure_s(origin, target, duration_s);
   if (from_s > until_s) return false;
+  const Move move(Displacement(centre(origin.cell), centre(target.cell)), agent_->speed_cells_per_s);
   const double departure_s = earliest_departure(move, from_s, until_s);
-  if (departure_s > until_s || departure_s == kForever) return false;
-  const double arrival_s = std::max(departure_s + move.duration, target.interval.begin_s);
+  known = {parent, origin.arrival_s, departure_s};
+  return departure_s <= until_s && arrive(parent, id, departure_s, duration_s, Tie::kKeep);
+}
+
+bool SippSearch::arrive_by_step(NodeId from, NodeId id, Tie tie) {
+  const SippNode& origin = nodes_[from];
+  const SippNode& target = nodes_[id];
+  const double duration_s = travel_s(origin.cell, target.cell);
+  const double from_s = std::max(origin.arrival_s, target.interval.begin_s - duration_s);
+  const double until_s = latest_departure_s(origin, target, duration_s);
+  if (from_s > until_s) return false;
+  const Move move(Displacement(centre(origin.cell), centre(target.cell)), agent_->speed_cells_per_s);
+  const double departure_s = earliest_departure(move, from_s, until_s);
+  return departure_s <= until_s && arrive(from, id, departure_s, duration_s, tie);
+}
+
+double SippSearch::latest_departure_s(const SippNode& origin, const SippNode& target,
+                                      double duration_s) const {
+  return std::min({origin.interval.end_s, target.interval.end_s - duration_s, target.arrival_s - duration_s});
+}
+
+bool SippSearch::arrive(NodeId from, NodeId id, double departure_s, double duration_s, Tie tie) {
+  SippNode& target = nodes_[id];
+  if (departure_s == kForever) return false;
+  const double arrival_s = std::max(departure_s + duration_s, target.interval.begin_s);
   if (arrival_s > target.arrival_s || (arrival_s == target.arrival_s && tie == Tie::kKeep)) return false;
   target.arrival_s = arrival_s;
   target.departure_s = departure_s;
@@ -190,7 +248,11 @@ bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   const Move move(Displacement(centre(origin.cell), centre(agent_->goal)), agent_->speed_cells_per_s);
   const double departure_s = origin.arrival_s;
   if (departure_s + move.duration < goal.interval.begin_s) return false;
-  if (earliest_departure(move, departure_s, departure_s) > departure_s) return false;
+  const double safe_s = options_.indexed_reservations
+                            ? reservations_->earliest_departure(move, agent_->radius_cells, departure_s,
+                                                                departure_s, &shot_blocker_)
+                            : earliest_departure(move, departure_s, departure_s);
+  if (safe_s > departure_s) return false;
   ++statistics.generations;
   goal.departure_s = departure_s;
   goal.arrival_s = departure_s + move.duration;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/grid/line_of_sight.hpp"
+#include "planner/grid/step_table.hpp"
 #include "planner/search/open_list.hpp"
 #include "planner/search/single_agent_planner.hpp"
 #include "planner/search/sipp_node.hpp"
@@ -49,24 +50,40 @@ class SippSearch final : public SingleAgentPlanner {
     NodeId last = kNoNode;  ///< one past
   };
 
+  /// What is known about the straight way to a node from one other node: no departure
+  /// before `departure_s` is safe. Several neighbours of a cell have the same parent.
+  struct StraightWay {
+    NodeId from = kNoNode;
+    double from_arrival_s = 0;  ///< when it was found; an earlier one makes it void
+    double departure_s = 0;
+  };
+
   void begin(AgentIndex agent, ReservationTable& reservations);
   CellNodes nodes_of(Cell cell);
   double lower_bound_s(Cell from, Cell to) const;
   double travel_s(Cell from, Cell to) const;
   /// A lower bound on the arrival at the goal by way of the node.
-  double f(const SippNode& node) const;
+  static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
   bool is_goal(const SippNode& node) const;
 
   void expand(NodeId id, SearchStatistics& statistics);
-  /// Promises the nodes of `cell`, a neighbour of `from`, that may be reached from it, or
-  /// straight from `parent` (kNoNode: there is no such way), earlier than known so far.
-  void offer(NodeId from, NodeId parent, Cell cell, SearchStatistics& statistics);
+  /// Promises the nodes of `cell`, a neighbour of `from`, that may be reached from it in
+  /// `step_s`, or straight from `parent` (kNoNode: there is no such way), earlier than known
+  /// so far.
+  void offer(NodeId from, NodeId parent, Cell cell, double step_s, SearchStatistics& statistics);
   /// Computes what a promise is worth. Whether it lowered the arrival at the node.
   bool relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics);
+  /// Whether `from` lies on the straight line from `parent` to node `id`.
+  bool is_on_the_way(NodeId parent, NodeId from, NodeId id) const;
+  /// Lowers the arrival at node `id` to that of the straight way from `parent`, if earlier.
+  bool arrive_straight(NodeId parent, NodeId id);
   /// Which way to keep of two that arrive at the same time.
   enum class Tie { kKeep, kReplace };
-  /// Lowers the arrival at node `id` to that of the straight way from `from`, if earlier.
-  bool arrive(NodeId from, NodeId id, Tie tie);
+  /// Lowers the arrival at node `id` to that of the step from `from`, if earlier.
+  bool arrive_by_step(NodeId from, NodeId id, Tie tie);
+  /// The last departure that reaches the node while it is safe and no later than known.
+  double latest_departure_s(const SippNode& origin, const SippNode& target, double duration_s) const;
+  bool arrive(NodeId from, NodeId id, double departure_s, double duration_s, Tie tie);
   /// Whether the straight way to the goal is safe when the node is left at once; then the
   /// goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
@@ -76,15 +93,21 @@ class SippSearch final : public SingleAgentPlanner {
   const Instance& instance_;
   SippOptions options_;
   std::vector<std::unique_ptr<LineOfSight>> lines_of_sight_;  ///< one for each radius
-  std::vector<const LineOfSight*> line_of_sight_of_;          ///< by agent
+  std::vector<std::unique_ptr<StepTable>> step_tables_;       ///< one for each radius
+  std::vector<std::size_t> radius_of_;                        ///< by agent, into these two
+
+  std::vector<double> step_lengths_;  ///< in cells, by step of the neighbourhood
 
   // The search under way.
   const Agent* agent_ = nullptr;
   const LineOfSight* line_of_sight_ = nullptr;
+  StepTable* steps_ = nullptr;
   ReservationTable* reservations_ = nullptr;
   std::uint32_t search_ = 0;
   std::vector<CellNodes> cell_nodes_;
   std::vector<SippNode> nodes_;
+  std::vector<StraightWay> straight_ways_;                             ///< by node
+  ReservationTable::DiskId shot_blocker_ = ReservationTable::kNoDisk;  ///< of the last shot
   OpenList open_;
 };
 

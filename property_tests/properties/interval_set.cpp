@@ -32,8 +32,8 @@ class PointModel {
     }
   }
 
-  std::vector<Interval> intervals() const {
-    std::vector<Interval> runs;
+  std::pmr::vector<Interval> intervals() const {
+    std::pmr::vector<Interval> runs;
     for (std::size_t i = 0; i < safe_.size(); ++i) {
       if (!safe_[i]) continue;
       if (i == 0 || !safe_[i - 1]) runs.push_back({time_s(i), time_s(i)});
@@ -121,7 +121,7 @@ int main() {
         IntervalSet set;
         for (const OpenInterval& span : before) set.remove_open(ordered(span));
         set.reset();
-        RC_ASSERT(set.intervals() == std::vector<Interval>{Interval{}});
+        RC_ASSERT(set.intervals() == std::pmr::vector<Interval>{Interval{}});
         agrees_with_points(after, set);
       });
 
