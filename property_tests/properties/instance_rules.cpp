@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
@@ -189,24 +190,48 @@ int main() {
                      [] { reachable_where_joined(); });
 
   passed &= property("content_hash: equal for equal problems, another for each change", [] {
-    const Instance instance = (*any_case()).instance;
+    Instance instance = (*any_case()).instance;
     RC_PRE(!instance.agents.empty());
+    instance.obstacles.push_back({"", 0.5, {{0, 0}, {{0, 1.5, {0, 0}, {1, 1}}}}});
     Instance same = instance;
     same.agents[0].id = "another name";
     RC_ASSERT(content_hash(same) == content_hash(instance));
+    const auto which = *rc::gen::inRange<std::size_t>(0, instance.agents.size());
+    const auto cell = *rc::gen::inRange<std::size_t>(0, instance.map.cell_count());
+    using Motion = TimedMotion;
+    const auto agent = [which](auto change) {
+      return [which, change](Instance& other) { change(other.agents[which]); };
+    };
+    const auto obstacle = [](auto change) {
+      return [change](Instance& other) { change(other.obstacles.back()); };
+    };
+    const auto motion = [](auto change) {
+      return [change](Instance& other) { change(other.obstacles.back().trajectory.motions.back()); };
+    };
     const std::vector<std::function<void(Instance&)>> changes = {
-        [](Instance& other) { other.agents[0].speed_cells_per_s *= 2; },
-        [](Instance& other) { other.agents[0].radius_cells *= 2; },
-        [](Instance& other) { ++other.agents[0].start.x; },
-        [](Instance& other) { ++other.agents[0].goal.y; },
-        [](Instance& other) { other.agents[0].start_heading_deg += 1; },
-        [](Instance& other) { other.agents[0].goal_heading_deg = 0; },
+        agent([](Agent& it) { it.speed_cells_per_s *= 2; }),
+        agent([](Agent& it) { it.radius_cells *= 2; }),
+        agent([](Agent& it) { ++it.start.x; }),
+        agent([](Agent& it) { ++it.start.y; }),
+        agent([](Agent& it) { ++it.goal.x; }),
+        agent([](Agent& it) { ++it.goal.y; }),
+        agent([](Agent& it) { it.start_heading_deg += 1; }),
+        agent([](Agent& it) { it.goal_heading_deg = 0; }),
+        agent([](Agent& it) { it.rotation_speed *= 2; }),
+        agent([](Agent& it) {
+          it.start = {it.start.y + 1, it.start.x};
+        }),
+        obstacle([](DynamicObstacle& it) { it.radius_cells *= 2; }),
+        obstacle([](DynamicObstacle& it) { ++it.trajectory.start.x; }),
+        motion([](Motion& it) { it.begin_s += 0.125; }),
+        motion([](Motion& it) { it.end_s += 0.125; }),
+        motion([](Motion& it) { ++it.from.x; }),
+        motion([](Motion& it) { ++it.to.y; }),
         [](Instance& other) { other.agents.pop_back(); },
-        [](Instance& other) {
-          other.obstacles.push_back({"", 0.5, {{0, 0}, {}}});
-        },
-        [](Instance& other) {
-          other.map.set_blocked({0, 0}, !other.map.is_blocked({0, 0}));
+        [](Instance& other) { other.obstacles.pop_back(); },
+        [](Instance& other) { other.obstacles.back().trajectory.motions.clear(); },
+        [cell](Instance& other) {
+          other.map.set_blocked(other.map.cell(cell), !other.map.is_blocked(other.map.cell(cell)));
         },
     };
     for (const auto& change : changes) {
@@ -214,6 +239,38 @@ int main() {
       change(other);
       RC_ASSERT(content_hash(other) != content_hash(instance));
     }
+  });
+
+  passed &= property("plan_hash: equal for equal plans, another for each change", [] {
+    const Solution solution = (*any_scene()).solution;
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < solution.trajectories.size(); ++i) {
+      if (!solution.trajectories[i].motions.empty()) moving.push_back(i);
+    }
+    RC_PRE(!moving.empty());
+    const Solution same = solution;
+    RC_ASSERT(plan_hash(same) == plan_hash(solution));
+    const std::size_t which = *rc::gen::elementOf(moving);
+    const auto at = *rc::gen::inRange<std::size_t>(0, solution.trajectories[which].motions.size());
+    const auto changed = [&](auto change) {
+      Solution other = solution;
+      change(other.trajectories[which].motions[at]);
+      return plan_hash(other) != plan_hash(solution);
+    };
+    // The next double after a time is another time.
+    RC_ASSERT(changed([](TimedMotion& it) { it.begin_s = std::nextafter(it.begin_s, 1e9); }));
+    RC_ASSERT(changed([](TimedMotion& it) { it.end_s = std::nextafter(it.end_s, 1e9); }));
+    RC_ASSERT(changed([](TimedMotion& it) { ++it.from.y; }));
+    RC_ASSERT(changed([](TimedMotion& it) { ++it.to.x; }));
+    Solution other = solution;
+    ++other.trajectories[which].start.x;
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
+    other = solution;
+    other.trajectories.emplace_back();
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
+    other = solution;
+    other.trajectories[which].motions.pop_back();
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
   });
 
   passed &= property("makespan is the latest arrival, flowtime the sum of all", [] {

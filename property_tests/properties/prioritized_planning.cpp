@@ -148,7 +148,10 @@ class ComparedSearch : public SingleAgentPlanner {
 
   Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override {
+    const SearchStatistics before = statistics;
     auto trajectory = search_.plan(agent, reservations, limits, statistics);
+    work_.expansions += statistics.expansions - before.expansions;
+    work_.generations += statistics.generations - before.generations;
     std::optional<double> arrival_s;
     if (trajectory) arrival_s = trajectory->arrival_s();
     compare(agent, arrival_s);
@@ -164,6 +167,8 @@ class ComparedSearch : public SingleAgentPlanner {
   double lower_bound_s(AgentIndex agent) const override { return search_.lower_bound_s(agent); }
 
   const Seen& seen() const { return seen_; }
+  /// Of all robots and tries.
+  const SearchStatistics& work() const { return work_; }
 
  private:
   void compare(AgentIndex agent, std::optional<double> arrival_s) {
@@ -214,6 +219,7 @@ class ComparedSearch : public SingleAgentPlanner {
   SippSearch search_;
   std::vector<std::optional<Trajectory>> planned_;  ///< in this try
   Seen seen_;
+  SearchStatistics work_;
 };
 
 Seen compares_well(bool any_angle) {
@@ -224,6 +230,10 @@ Seen compares_well(bool any_angle) {
   const PlanResult usual = plan(posed.plan_case.instance, posed.plan_case.options);
   RC_ASSERT(result.status == usual.status);
   RC_ASSERT(result.solution == usual.solution);
+  for (const PlanResult* counted : {&result, &usual}) {
+    RC_ASSERT(counted->statistics.expansions == search.work().expansions);
+    RC_ASSERT(counted->statistics.generations == search.work().generations);
+  }
   return search.seen();
 }
 
