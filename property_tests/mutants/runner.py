@@ -55,7 +55,8 @@ class Runner:
         with ThreadPoolExecutor(self.jobs) as pool:
             runs = dict(pool.map(one, programs))
         if log:
-            log.write_text("".join(run.logged for run in runs.values()))
+            with open(log, "a") as file:
+                file.write("".join(run.logged for run in runs.values()))
         return {program: run.cell() for program, run in runs.items()}
 
 

@@ -151,6 +151,39 @@ void ends_as_if_never_interrupted() {
   RC_CLASSIFY(sessions > 1, "resumed");
 }
 
+void resumes_only_its_like() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  {
+    RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+    must(recorder.finish(RunStatus::kAborted));
+  }
+  RunInfo info = the_run("smoke");
+  const std::vector<std::string*> texts = {&info.suite,
+                                           &info.options,
+                                           &info.machine.host,
+                                           &info.machine.kernel,
+                                           &info.build.compiler,
+                                           &info.build.compiler_version,
+                                           &info.build.flags,
+                                           &info.build.build_type,
+                                           &info.build.sanitizers,
+                                           &info.build.binary_hash};
+  Database database = must(Database::open(path));
+  RC_ASSERT(must(find_resumable_run(database, info)).has_value());
+  const auto which = *rc::gen::inRange<std::size_t>(0, texts.size() + 3);
+  if (which < texts.size()) {
+    *texts[which] += " and more";
+  } else if (which == texts.size()) {
+    info.build.assertions = !info.build.assertions;
+  } else if (which == texts.size() + 1) {
+    info.build.dirty = !info.build.dirty;
+  } else {
+    must(exclude_run(database, "latest", "noise"));
+  }
+  RC_ASSERT(!must(find_resumable_run(database, info)).has_value());
+}
+
 void has_one_writer() {
   const NewHistory history;
   const fs::path path = history.path();
@@ -334,6 +367,7 @@ int main() {
 
   passed &= property("a run that is resumed any number of times ends as if it was never interrupted",
                      ends_as_if_never_interrupted);
+  passed &= property("a run is resumed by its like only, and not once it is excluded", resumes_only_its_like);
   passed &= property("a run that another process took over is not written to", has_one_writer);
   passed &= property("a case is recorded whole or not at all", writes_cases_whole);
   passed &= property("what is known of a commit's place in history is not forgotten", known_counts_stay);
