@@ -7,12 +7,15 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "planner/instance/disk_lookup.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/instance/reachability.hpp"
 #include "planner/solution/solution.hpp"
+#include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
@@ -127,6 +130,28 @@ void large_among_small() {
   RC_ASSERT(find_error(instance).has_value() == bad);
 }
 
+/// Many disks of all sizes, asked for one by one: enough of each size that buckets pay.
+void least_overlap_of_many() {
+  constexpr std::int32_t kSide = 96;
+  const auto any_body = [] {
+    return Body{*any_cell(kSide, kSide), *rc::gen::element<std::int64_t>(2, 4, 4, 12, 20, 40, 60, 200)};
+  };
+  std::vector<Body> bodies;
+  DiskLookup lookup;
+  const auto count = *rc::gen::inRange<std::size_t>(0, 120);
+  for (std::size_t id = 0; id < count; ++id) {
+    bodies.push_back(any_body());
+    lookup.add(id, bodies[id].cell, static_cast<double>(bodies[id].eighths) / kParts);
+  }
+  const Body asking = any_body();
+  std::optional<std::size_t> expected;
+  for (std::size_t id = count; id-- > 0;) {
+    if (bodies_overlap(bodies[id], asking)) expected = id;
+  }
+  RC_CLASSIFY(expected.has_value(), "some overlap");
+  RC_ASSERT(lookup.find_overlap(asking.cell, static_cast<double>(asking.eighths) / kParts) == expected);
+}
+
 /// Whether a chain of free 4-neighbours joins the two.
 bool joined(const GridMap& map, Cell from, Cell to) {
   std::vector<bool> seen(map.cell_count(), false);
@@ -185,6 +210,9 @@ int main() {
 
   passed &= property("find_error: a large body among many small ones overlaps where whole numbers say so",
                      [] { large_among_small(); });
+
+  passed &= property("find_overlap: the least disk of all that overlap, as asking each of them says",
+                     [] { least_overlap_of_many(); });
 
   passed &= property("find_unreachable_goal: a slim robot reaches what free 4-neighbours join",
                      [] { reachable_where_joined(); });
