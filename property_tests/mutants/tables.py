@@ -66,6 +66,7 @@ class Matrix:
     def write(self, out):
         (out / "matrix.txt").write_text(self.text())
         (out / "matrix.md").write_text(self.page())
+        (out / "kills.md").write_text(self.kills())
         (out / "counterexamples.txt").write_text(self.counterexamples())
         with open(out / "matrix.csv", "w", newline="") as table:
             self.write_csv(csv.writer(table))
@@ -92,6 +93,15 @@ class Matrix:
             kill = kill.replace("|", "\\|") or "**survived**"
             lines.append(f"| {mutant['room']} | {mutant['name']} | {self.marks(mutant, cells, ' | ')} "
                          f"| {kill} | {size} |")
+        return "\n".join([*lines, "", summary(self.rows), ""])
+
+    def kills(self):
+        """The same without marks: what noticed first."""
+        lines = ["| room | mutant | killed by | smallest case |", "|---|---|---|---|"]
+        for mutant, cells in self.rows:
+            kill, size = first_kill(cells)
+            kill = kill.replace("|", "\\|") or "**survived**"
+            lines.append(f"| {mutant['room']} | {mutant['name']} | {kill} | {size} |")
         return "\n".join([*lines, "", summary(self.rows), ""])
 
     def write_csv(self, writer):
