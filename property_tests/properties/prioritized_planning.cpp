@@ -33,7 +33,9 @@ constexpr double kEdgeCells = 1e-6;
 constexpr std::int32_t kWidth = 6;
 constexpr std::int32_t kHeight = 5;
 constexpr std::size_t kMostRobots = 5;
+/// At any angle a case says less, and takes as long.
 constexpr int kWorldsPerCase = 2;
+constexpr int kAnyAngleWorldsPerCase = 1;
 
 struct Rover {
   Cell start;
@@ -246,14 +248,15 @@ Seen compares_well(bool any_angle) {
 
 void compare_worlds(bool any_angle) {
   Seen all;
-  for (int i = 0; i < kWorldsPerCase; ++i) {
+  const int worlds = any_angle ? kAnyAngleWorldsPerCase : kWorldsPerCase;
+  for (int i = 0; i < worlds; ++i) {
     const Seen seen = compares_well(any_angle);
     all.planned += seen.planned > 1;
     all.pardoned += seen.pardoned;
     all.failed += seen.failed;
     all.late += seen.late;
   }
-  RC_CLASSIFY(all.planned == kWorldsPerCase, "two robots or more in each world");
+  RC_CLASSIFY(all.planned == worlds, "two robots or more in each world");
   RC_CLASSIFY(all.pardoned > 0, "goals on protected starts");
   RC_CLASSIFY(all.late > 0, "some later than contacts allow");
   RC_CLASSIFY(all.failed > 0, "some without a way");

@@ -84,7 +84,7 @@ void add_results(RunRecorder& recorder, int number, int results) {
 
 // --- interruptions ------------------------------------------------------------------
 
-constexpr int kMostSessions = 4;
+constexpr int kMostSessions = 3;
 
 /// What one start of a sweep gets done before it is interrupted.
 struct Session {
@@ -228,13 +228,13 @@ void writes_cases_whole() {
 
 // --- what is kept of commits, limits and exclusions ---------------------------------
 
-constexpr std::size_t kMostCommits = 4;
+constexpr std::size_t kMostCommits = 3;
 
 void known_counts_stay() {
   const NewHistory history;
   const fs::path path = history.path();
   const auto commits = *rc::gen::container<std::vector<std::pair<int, bool>>>(
-      kMostCommits, rc::gen::pair(rc::gen::inRange(1, 4), rc::gen::arbitrary<bool>()));
+      kMostCommits, rc::gen::pair(rc::gen::inRange(1, 3), rc::gen::arbitrary<bool>()));
   std::map<int, bool> known;
   for (const auto& [number, shallow] : commits) {
     RunInfo info = the_run("smoke");
@@ -285,7 +285,7 @@ void exclusion_hides_and_comes_back() {
   const NewHistory history;
   const fs::path path = history.path();
   std::vector<std::string> uuids;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
     must(recorder.finish(RunStatus::kFinished));
     uuids.push_back(recorder.run_uuid());
@@ -293,7 +293,7 @@ void exclusion_hides_and_comes_back() {
   Database database = must(Database::open(path));
   std::set<std::string> excluded;
   const auto steps = *rc::gen::container<std::vector<std::pair<int, bool>>>(
-      rc::gen::pair(rc::gen::inRange(0, 3), rc::gen::arbitrary<bool>()));
+      rc::gen::pair(rc::gen::inRange(0, 2), rc::gen::arbitrary<bool>()));
   for (const auto& [which, out] : steps) {
     const std::string& uuid = uuids[static_cast<std::size_t>(which)];
     // A run is excluded once, and taken back once: the rest is an error and changes nothing.
