@@ -192,9 +192,12 @@ TEST_F(PropertyRuns, a_history_of_version_2_keeps_its_property_runs) {
     auto connection = must(sqlite::Connection::open(older, sqlite::OpenMode::kReadWrite));
     must(migrate(connection, migrations().first(2)));
     must(connection.execute("ATTACH '" + file.string() + "' AS newer", "attaching"));
-    for (const char* table : {"commit_", "machine", "build", "property_run", "property_class"}) {
-      must(connection.execute("INSERT INTO main." + std::string(table) + " SELECT * FROM newer." + table,
-                              "copying"));
+    for (const std::string table : {"commit_", "machine", "build", "property_run", "property_class"}) {
+      const std::string columns = must(connection.query_text(
+          "SELECT group_concat(name) FROM pragma_table_info('" + table + "')", "listing columns"));
+      must(connection.execute(
+          "INSERT INTO main." + table + " (" + columns + ") SELECT " + columns + " FROM newer." + table,
+          "copying"));
     }
   }
   must(Database::open(older));
