@@ -44,7 +44,8 @@ constexpr double kTouchCells = 1e-7;
 /// Cells. At the very edge of what is pardoned a way may be judged either way.
 constexpr double kEdgeCells = 1e-6;
 
-/// Where along the way from `from`, in cells, it is within reach of a place.
+/// Where along the endless line through both, in cells from `from`, it is within reach of a
+/// place. Empty where the way itself never is; REQUIRES: the way has a length.
 struct Within {
   double begin = 0;
   double end = 0;
@@ -54,14 +55,12 @@ struct Within {
 Within within(Vec2 place, double reach, Vec2 from, Vec2 to) {
   const double length = norm(to - from);
   const Vec2 apart = place - from;
-  if (length == 0) return {0, 0, norm(apart) >= reach};
   const Vec2 along{(to.x - from.x) / length, (to.y - from.y) / length};
   const double nearest = apart.x * along.x + apart.y * along.y;
   const double aside = apart.x * along.y - apart.y * along.x;
   if (std::abs(aside) >= reach) return {};
   const double half = std::sqrt(reach * reach - aside * aside);
-  const Within all{std::max(0.0, nearest - half), std::min(length, nearest + half), false};
-  return all.begin > all.end ? Within{} : all;
+  return {nearest - half, nearest + half, nearest - half > length || nearest + half < 0};
 }
 
 struct Label {
@@ -165,12 +164,18 @@ std::vector<Cell> mediant_neighbourhood(int k) {
 }
 
 double intrusion_cells(const Forbidden& forbidden, Vec2 from, Vec2 to) {
+  const double length = norm(to - from);
+  if (length == 0) {
+    if (norm(forbidden.place - from) >= forbidden.reach - kTouchCells) return -forbidden.reach;
+    return norm(forbidden.pardoned - from) - forbidden.reach;
+  }
   const Within inside = within(forbidden.place, forbidden.reach - kTouchCells, from, to);
   if (inside.empty) return -forbidden.reach;
+  const double begin = std::max(0.0, inside.begin);
+  const double end = std::min(length, inside.end);
   const Within pardoned = within(forbidden.pardoned, forbidden.reach, from, to);
-  if (norm(to - from) == 0) return norm(forbidden.pardoned - from) - forbidden.reach;
-  if (pardoned.empty) return inside.end - inside.begin;
-  return std::max(pardoned.begin - inside.begin, inside.end - pardoned.end);
+  if (pardoned.empty) return end - begin;
+  return std::max(pardoned.begin - begin, end - pardoned.end);
 }
 
 std::optional<double> earliest_arrival_s(const GridMap& map, const std::vector<MovingDisk>& disks,
