@@ -77,8 +77,15 @@ Result<PropertyRecorded> record_property_runs(Database& database, const Property
       "writing the classes of a property run");
   if (!insert_class) return Unexpected{insert_class.error()};
 
+  // A log that is recorded while a property runs holds its beginning alone.
+  auto forget_crash = Statement::prepare(
+      connection, "DELETE FROM property_run WHERE uuid = ?1 AND status = 'crashed' AND ?2 <> 'crashed'",
+      "replacing a property run");
+  if (!forget_crash) return Unexpected{forget_crash.error()};
+
   PropertyRecorded recorded;
   for (const PropertyRun& run : runs) {
+    if (auto done = forget_crash->bind(run.uuid, run.status).run(); !done) return Unexpected{done.error()};
     insert_run->bind(run.uuid, run.started_utc, run.room, run.title, origin.mutant, keys->commit,
                      keys->machine, keys->build, origin.branch, to_bits(run.seed), run.max_success,
                      run.status, run.cases, run.discards, run.shrinks, run.shrink_tries, run.wall_time_ns,
@@ -105,13 +112,14 @@ Result<Table> list_property_runs(Database& database, const PropertyFilter& filte
       database.connection(),
       fmt::format("SELECT id, started_utc, room, title, mutant, status, cases, discards, shrinks, "
                   "wall_time_s, seed, case_robots, case_cells FROM {} "
-                  "WHERE (?1 IS NULL OR room = ?1) AND (?2 IS NULL OR status = ?2) ORDER BY {} LIMIT ?3",
+                  "WHERE (?1 IS NULL OR room = ?1) AND (NOT ?2 OR status IN ('failed', 'crashed')) ORDER BY "
+                  "{} LIMIT ?3",
                   filter.every_run ? "v_property_runs" : "v_property_latest",
                   filter.every_run ? "started_utc DESC, id DESC" : "room, title"),
       kReading);
   if (!select) return Unexpected{select.error()};
   const std::int64_t no_limit = -1;
-  select->bind(filter.room, filter.status,
+  select->bind(filter.room, filter.failed,
                filter.limit == 0 ? no_limit : static_cast<std::int64_t>(filter.limit));
   Table table{{"id", "started_utc", "room", "title", "mutant", "status", "cases", "discards", "shrinks",
                "wall_time_s", "seed", "case_robots", "case_cells"},

@@ -23,7 +23,7 @@ struct PropertyRun {
   std::string title;
   std::uint64_t seed = 0;
   std::int64_t max_success = 0;
-  std::string status;  ///< "passed", "failed", "gave_up"
+  std::string status;  ///< "passed", "failed", "gave_up", "crashed"
   std::int64_t cases = 0;
   std::int64_t discards = 0;
   std::int64_t shrinks = 0;
@@ -55,13 +55,13 @@ struct PropertyRecorded {
 };
 
 /// Writes all runs in one transaction: all or nothing. Runs that the file holds already
-/// stay as they are.
+/// stay as they are, but for one that seemed to have crashed and ended after all.
 Result<PropertyRecorded> record_property_runs(Database& database, const PropertyOrigin& origin,
                                               const std::vector<PropertyRun>& runs);
 
 struct PropertyFilter {
   std::optional<std::string> room;
-  std::optional<std::string> status;
+  bool failed = false;     ///< only those that failed or crashed
   bool every_run = false;  ///< else the newest of each property, planted bugs left out
   std::size_t limit = 0;   ///< newest runs; 0 for all
 };

@@ -48,9 +48,9 @@ struct PropertyArguments {
 };
 
 std::string totals_text(const bench::PropertyTotals& totals) {
-  return fmt::format("{} property runs, {} cases, {} discarded, {} failed, {} gave up, {:.1f} s\n",
-                     totals.runs, totals.cases, totals.discards, totals.failed, totals.gave_up,
-                     totals.wall_time_s);
+  return fmt::format(
+      "{} property runs, {} cases, {} discarded, {} failed, {} gave up, {} crashed, {:.1f} s\n", totals.runs,
+      totals.cases, totals.discards, totals.failed, totals.gave_up, totals.crashed, totals.wall_time_s);
 }
 
 nlohmann::ordered_json totals_json(const bench::PropertyTotals& totals) {
@@ -60,6 +60,7 @@ nlohmann::ordered_json totals_json(const bench::PropertyTotals& totals) {
   json["discards"] = totals.discards;
   json["failed"] = totals.failed;
   json["gave_up"] = totals.gave_up;
+  json["crashed"] = totals.crashed;
   json["wall_time_s"] = totals.wall_time_s;
   return json;
 }
@@ -76,7 +77,7 @@ int run_totals(const PropertyArguments& arguments) {
   if (!runs) return fail(kBadUsage, runs.error());
   const bench::PropertyTotals totals = bench::totals_of(*runs);
   print(arguments.history.json ? totals_json(totals).dump(2) + "\n" : totals_text(totals));
-  return totals.failed + totals.gave_up == 0 ? kSuccess : kNegativeVerdict;
+  return totals.failed + totals.gave_up + totals.crashed == 0 ? kSuccess : kNegativeVerdict;
 }
 
 int run_record(const PropertyArguments& arguments) {
@@ -111,7 +112,7 @@ int run_list(const PropertyArguments& arguments) {
   if (!database) return fail(database.error());
   db::PropertyFilter filter;
   filter.room = arguments.room;
-  if (arguments.failed) filter.status = "failed";
+  filter.failed = arguments.failed;
   filter.every_run = arguments.all;
   filter.limit = arguments.limit;
   const auto table = db::list_property_runs(*database, filter);
@@ -247,7 +248,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
 
   CLI::App* list = add_subcommand(*property, "list", "the newest run of each property", *arguments);
   list->add_option("--room", arguments->room, "only properties of this program");
-  list->add_flag("--failed", arguments->failed, "only failures");
+  list->add_flag("--failed", arguments->failed, "only failures and crashes");
   list->add_flag("--all", arguments->all, "every run, newest first, those with planted bugs too");
   list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
   CLI::App* show =

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace sipplab::bench {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kUuidLength = 36;
+/// The line that a property logs before its first case.
+constexpr const char* kStarted = "started";
 
 /// Takes typed fields out of one object and remembers the first that is wrong.
 class Fields {
@@ -94,8 +98,9 @@ Expected<db::PropertyRun, std::string> parse_line(std::string_view line) {
   run.seed = fields.seed("seed");
   run.max_success = fields.count("max_success");
   run.status = fields.text("status");
-  fields.require(run.status == "passed" || run.status == "failed" || run.status == "gave_up", "status",
-                 "passed, failed or gave_up");
+  fields.require(
+      run.status == kStarted || run.status == "passed" || run.status == "failed" || run.status == "gave_up",
+      "status", "started, passed, failed or gave_up");
   run.cases = fields.count("cases");
   run.discards = fields.count("discards");
   run.shrinks = fields.count("shrinks");
@@ -104,7 +109,8 @@ Expected<db::PropertyRun, std::string> parse_line(std::string_view line) {
   run.wall_time_ns = fields.count("wall_time_ns");
   run.classes = fields.counts("classes");
   run.message = fields.text("message");
-  fields.require(run.status == "passed" || !run.message.empty(), "message", "a reason");
+  fields.require(run.status == kStarted || run.status == "passed" || !run.message.empty(), "message",
+                 "a reason");
   run.reproduce = fields.text("reproduce");
   fields.require((run.status == "failed") != run.reproduce.empty(), "reproduce", "it for failures alone");
   run.counterexample = fields.text("counterexample");
@@ -113,6 +119,28 @@ Expected<db::PropertyRun, std::string> parse_line(std::string_view line) {
   run.case_cells = fields.optional_count("case_cells");
   if (!fields.error().empty()) return Unexpected{fields.error()};
   return run;
+}
+
+/// Leaves one run for each UUID: the end of a property stands for its beginning, too, and a
+/// beginning without an end is a crash.
+std::vector<db::PropertyRun> ended(std::vector<db::PropertyRun> lines) {
+  std::set<std::string> with_an_end;
+  for (const db::PropertyRun& line : lines) {
+    if (line.status != kStarted) with_an_end.insert(line.uuid);
+  }
+  std::vector<db::PropertyRun> runs;
+  for (db::PropertyRun& line : lines) {
+    if (line.status == kStarted) {
+      if (with_an_end.count(line.uuid) > 0) continue;
+      line.status = "crashed";
+      line.message = fmt::format(
+          "the program ended before this property did; the same cases again: "
+          "RC_PARAMS=\"seed={} max_success={}\" property_{}",
+          line.seed, line.max_success, line.room);
+    }
+    runs.push_back(std::move(line));
+  }
+  return runs;
 }
 
 }  // namespace
@@ -130,7 +158,7 @@ Expected<std::vector<db::PropertyRun>, std::string> parse_property_log(std::stri
     runs.push_back(std::move(*run));
   }
   if (runs.empty()) return Unexpected{name + ": no property run, expected at least one"};
-  return runs;
+  return ended(std::move(runs));
 }
 
 PropertyTotals totals_of(const std::vector<db::PropertyRun>& runs) {
@@ -142,6 +170,7 @@ PropertyTotals totals_of(const std::vector<db::PropertyRun>& runs) {
     totals.discards += run.discards;
     if (run.status == "failed") ++totals.failed;
     if (run.status == "gave_up") ++totals.gave_up;
+    if (run.status == "crashed") ++totals.crashed;
     totals.wall_time_s += static_cast<double>(run.wall_time_ns) * kSecondsPerNs;
   }
   return totals;

@@ -13,7 +13,7 @@
 
 namespace sipplab::bench {
 
-/// The runs of a log. Errors are one line: `name:line: what is wrong, what was
+/// The runs of a log; one that began and did not end has crashed, or is not over. Errors are one line: `name:line: what is wrong, what was
 /// expected`; a log without any run is one, too.
 Expected<std::vector<db::PropertyRun>, std::string> parse_property_log(std::string_view text,
                                                                        const std::string& name);
@@ -25,6 +25,7 @@ struct PropertyTotals {
   std::int64_t discards = 0;
   std::size_t failed = 0;
   std::size_t gave_up = 0;
+  std::size_t crashed = 0;
   double wall_time_s = 0;  ///< sum over the runs, which may have run at once
 };
 PropertyTotals totals_of(const std::vector<db::PropertyRun>& runs);

@@ -31,20 +31,20 @@ says() { grep -qF -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head 
 equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
 ask() { sqlite3 history.db "$1"; }
 
-# The log: one line for each property, appended.
+# The log: two lines for each property, its beginning and its end, appended.
 expect 1 env RC_PARAMS=seed=7 SIPPLAB_PROPERTY_LOG=log property_tests/property_sample
 says 'classes: even' err
 says 'RC_PARAMS="reproduce=' err
-equal "$(wc -l <log)" 5 "lines of the log"
+equal "$(grep -c '"started"' log) $(wc -l <log)" "5 10" "lines of the log"
 expect 1 env RC_PARAMS=seed=8 SIPPLAB_PROPERTY_LOG=log property_tests/property_sample
-equal "$(wc -l <log)" 10 "lines of the log after two runs"
+equal "$(wc -l <log)" 20 "lines of the log after two runs"
 expect 1 property_tests/property_sample
-equal "$(wc -l <log)" 10 "lines of the log after a run without one"
+equal "$(wc -l <log)" 20 "lines of the log after a run without one"
 expect 2 env RC_PARAMS=max_success=many property_tests/property_sample
 
 expect 1 ./sipplab property totals log
 says '10 property runs'
-says '6 failed, 2 gave up'
+says '6 failed, 2 gave up, 0 crashed'
 
 # The history.
 expect 0 ./sipplab property record log --db history.db
@@ -64,6 +64,21 @@ expect 0 ./sipplab property list --db history.db
 equal "$(grep -c sample out)" 5 "properties listed"
 expect 0 ./sipplab property list --db history.db --all --failed --format csv
 equal "$(grep -c failed out)" 6 "failures listed"
+
+# A program that is killed leaves what it was at, until the log says how that ended.
+expect 137 env RC_PARAMS="seed=9 max_success=10000000" SIPPLAB_PROPERTY_LOG=killed.log \
+  timeout --signal=KILL 1 property_tests/property_sample
+expect 0 ./sipplab property record killed.log --db killed.db
+says '1 crashed'
+equal "$(sqlite3 killed.db 'SELECT status, title, cases FROM property_run')" "crashed|every number is odd or even|0" "what was killed"
+expect 0 ./sipplab property list --failed --db killed.db
+says 'crashed'
+expect 0 ./sipplab property show 1 --db killed.db
+says 'RC_PARAMS="seed=9 max_success=10000000" property_sample'
+expect 1 ./sipplab property totals killed.log
+sed 's/"started"/"passed"/; s/"cases":0/"cases":7/' killed.log >>killed.log
+expect 0 ./sipplab property record killed.log --db killed.db
+equal "$(sqlite3 killed.db 'SELECT status, cases FROM property_run')" "passed|7" "what had only seemed to be killed"
 
 id=$(ask "SELECT id FROM v_property_latest WHERE title = 'a plan has one robot'")
 noted=$(ask "SELECT id FROM v_property_latest WHERE title = 'a plan in 8 neighbours has one robot'")

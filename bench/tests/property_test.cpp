@@ -59,6 +59,20 @@ TEST(PropertyLog, EveryFieldIsRead) {
   EXPECT_EQ(failed.case_cells, 2);
 }
 
+TEST(PropertyLog, ABeginningWithoutAnEndIsACrash) {
+  const std::string begun = replaced(kPassed, "\"status\":\"passed\"", "\"status\":\"started\"");
+  const auto crashed = parse_property_log(begun + "\n" + kFailed, "x.log");
+  ASSERT_TRUE(crashed) << crashed.error();
+  ASSERT_EQ(crashed->size(), 2u);
+  EXPECT_EQ(crashed->front().status, "crashed");
+  EXPECT_NE(crashed->front().message.find("property_grid"), std::string::npos) << crashed->front().message;
+  EXPECT_EQ(totals_of(*crashed).crashed, 1u);
+  const auto ended = parse_property_log(begun + "\n" + kPassed, "x.log");
+  ASSERT_TRUE(ended) << ended.error();
+  ASSERT_EQ(ended->size(), 1u);
+  EXPECT_EQ(ended->front().status, "passed");
+}
+
 TEST(PropertyLog, TotalsAreSums) {
   const auto runs = parse_property_log(kPassed + "\n" + kFailed, "x.log");
   ASSERT_TRUE(runs) << runs.error();

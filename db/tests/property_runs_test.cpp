@@ -97,6 +97,21 @@ TEST_F(PropertyRuns, a_log_that_is_recorded_twice_is_stored_once) {
   EXPECT_EQ(ask(file, "SELECT count(*) FROM property_class"), "6");
 }
 
+TEST_F(PropertyRuns, what_seemed_to_have_crashed_is_replaced_by_its_end) {
+  PropertyRun crashed = passed_run(1);
+  crashed.status = "crashed";
+  crashed.message = "ended early";
+  crashed.cases = 0;
+  crashed.classes.clear();
+  record({crashed});
+  EXPECT_EQ(record({crashed}).known, 1U);
+  EXPECT_EQ(record({passed_run(1)}).added, 1U);
+  EXPECT_EQ(record({crashed}).known, 1U);
+  EXPECT_EQ(ask(file, "SELECT status || cases FROM property_run"), "passed100");
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM property_class"), "2");
+  test::expect_sound(file);
+}
+
 TEST_F(PropertyRuns, a_log_with_one_wrong_run_changes_nothing) {
   PropertyRun wrong = passed_run(2);
   wrong.status = "fine";
@@ -120,7 +135,7 @@ TEST_F(PropertyRuns, the_newest_run_stands_for_its_property) {
   all.every_run = true;
   EXPECT_EQ(list(all).rows.size(), 4U);
   EXPECT_EQ(list(all).rows[0][4], Value{std::string{"gap_closed"}});
-  all.status = "failed";
+  all.failed = true;
   EXPECT_EQ(list(all).rows.size(), 2U);
   all.limit = 1;
   EXPECT_EQ(list(all).rows.size(), 1U);
@@ -160,6 +175,35 @@ TEST_F(PropertyRuns, a_report_is_text_or_json) {
   EXPECT_EQ(json["plan_case"], "..\nrobot 0 0 to 1 0\n");
   EXPECT_EQ(json["classes"]["dense"], 40);
   EXPECT_EQ(json["seed"], UINT64_MAX);
+}
+
+TEST_F(PropertyRuns, a_history_of_version_2_keeps_its_property_runs) {
+  // Written by this program, and moved to where the tables are as they were.
+  record({passed_run(1), failed_run(2)});
+  const auto rows = [&](const std::filesystem::path& path) {
+    return ask(path,
+               "SELECT group_concat(quote(uuid) || quote(seed) || quote(reproduce) || quote(plan_case) || "
+               "quote(wall_time_ns) || quote(class) || quote(property_class.cases)) "
+               "FROM property_run LEFT JOIN property_class ON property_run_id = id ORDER BY id, class");
+  };
+  const std::string before = rows(file);
+  const std::filesystem::path older = folder / "older.db";
+  {
+    auto connection = must(sqlite::Connection::open(older, sqlite::OpenMode::kReadWrite));
+    must(migrate(connection, migrations().first(2)));
+    must(connection.execute("ATTACH '" + file.string() + "' AS newer", "attaching"));
+    for (const std::string table : {"commit_", "machine", "build", "property_run", "property_class"}) {
+      const std::string columns = must(connection.query_text(
+          "SELECT group_concat(name) FROM pragma_table_info('" + table + "')", "listing columns"));
+      must(connection.execute(
+          "INSERT INTO main." + table + " (" + columns + ") SELECT " + columns + " FROM newer." + table,
+          "copying"));
+    }
+  }
+  must(Database::open(older));
+  EXPECT_EQ(rows(older), before);
+  EXPECT_EQ(ask(older, "SELECT sum(crashed) || sum(failed) FROM v_property_totals"), "01");
+  test::expect_sound(older);
 }
 
 TEST_F(PropertyRuns, a_history_of_version_1_keeps_its_rows) {

@@ -3,8 +3,10 @@
 // ways only add to that: with a bound that never overestimates, no arrival is later.
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cstdint>
 
+#include "planner/grid/line_of_sight.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
@@ -44,7 +46,7 @@ PlanCase any_world() {
   return world;
 }
 
-Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle) {
+Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, SearchStatistics& work) {
   SippOptions options;
   options.any_angle = any_angle;
   options.connectedness = world.options.connectedness;
@@ -52,8 +54,7 @@ Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle) 
   for (const DynamicObstacle& obstacle : world.instance.obstacles) {
     reservations.add(obstacle.trajectory, obstacle.radius_cells);
   }
-  SearchStatistics statistics;
-  return SippSearch(world.instance, options).plan(0, reservations, {}, statistics);
+  return SippSearch(world.instance, options).plan(0, reservations, {}, work);
 }
 
 }  // namespace
@@ -61,14 +62,42 @@ Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle) 
 
 int main() {
   using namespace sipplab;
-  const bool passed = property("AA-SIPP arrives wherever SIPP does, and no later", [] {
+  bool passed =
+      property("work is counted: a node for each motion at least, one for a straight way alone", [] {
+        for (int i = 0; i < kWorldsPerCase; ++i) {
+          PlanCase world = any_world();
+          note_case(world);
+          for (const bool any_angle : {false, true}) {
+            SearchStatistics work;
+            const auto found = search(world, any_angle, work);
+            if (!found) continue;
+            const auto& motions = found->motions;
+            const auto ways = static_cast<std::uint64_t>(std::count_if(
+                motions.begin(), motions.end(), [](const TimedMotion& motion) { return !motion.is_wait(); }));
+            RC_ASSERT(work.generations >= ways);
+            RC_ASSERT(work.expansions >= std::min<std::uint64_t>(ways, 1));
+            if (!any_angle) RC_ASSERT(work.expansions >= ways);
+          }
+          const Agent& agent = world.instance.agents[0];
+          world.instance.obstacles.clear();
+          const LineOfSight sight(world.instance.map, agent.radius_cells);
+          if (agent.start == agent.goal || !sight.is_clear(agent.start, agent.goal)) continue;
+          SearchStatistics work;
+          RC_ASSERT(search(world, true, work).has_value());
+          RC_ASSERT(work.expansions == 1u);
+          RC_ASSERT(work.generations == 1u);
+        }
+      });
+
+  passed &= property("AA-SIPP arrives wherever SIPP does, and no later", [] {
     bool both = false;
     for (int i = 0; i < kWorldsPerCase; ++i) {
       const PlanCase world = any_world();
       note_case(world);
-      const auto stepwise = search(world, false);
+      SearchStatistics work;
+      const auto stepwise = search(world, false, work);
       if (!stepwise) continue;
-      const auto any_angle = search(world, true);
+      const auto any_angle = search(world, true, work);
       RC_ASSERT(static_cast<bool>(any_angle));
       RC_ASSERT(any_angle->arrival_s() <= stepwise->arrival_s() + kArrivalS);
       both = both || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -316,6 +317,12 @@ void read_damaged_solution(const Told& told, const std::string& text) {
 }
 
 }  // namespace
+
+std::ostream& operator<<(std::ostream& out, const Instance& instance) {
+  return out << write_instance_xml(instance);
+}
+std::ostream& operator<<(std::ostream& out, const GridMap& map) { return out << write_movingai_map(map); }
+
 }  // namespace sipplab
 
 int main() {

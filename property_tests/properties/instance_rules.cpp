@@ -3,15 +3,19 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "planner/instance/disk_lookup.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/instance/reachability.hpp"
 #include "planner/solution/solution.hpp"
+#include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
@@ -126,6 +130,28 @@ void large_among_small() {
   RC_ASSERT(find_error(instance).has_value() == bad);
 }
 
+/// Many disks of all sizes, asked for one by one: enough of each size that buckets pay.
+void least_overlap_of_many() {
+  constexpr std::int32_t kSide = 96;
+  const auto any_body = [] {
+    return Body{*any_cell(kSide, kSide), *rc::gen::element<std::int64_t>(2, 4, 4, 12, 20, 40, 60, 200)};
+  };
+  std::vector<Body> bodies;
+  DiskLookup lookup;
+  const auto count = *rc::gen::inRange<std::size_t>(0, 120);
+  for (std::size_t id = 0; id < count; ++id) {
+    bodies.push_back(any_body());
+    lookup.add(id, bodies[id].cell, static_cast<double>(bodies[id].eighths) / kParts);
+  }
+  const Body asking = any_body();
+  std::optional<std::size_t> expected;
+  for (std::size_t id = count; id-- > 0;) {
+    if (bodies_overlap(bodies[id], asking)) expected = id;
+  }
+  RC_CLASSIFY(expected.has_value(), "some overlap");
+  RC_ASSERT(lookup.find_overlap(asking.cell, static_cast<double>(asking.eighths) / kParts) == expected);
+}
+
 /// Whether a chain of free 4-neighbours joins the two.
 bool joined(const GridMap& map, Cell from, Cell to) {
   std::vector<bool> seen(map.cell_count(), false);
@@ -185,28 +211,55 @@ int main() {
   passed &= property("find_error: a large body among many small ones overlaps where whole numbers say so",
                      [] { large_among_small(); });
 
+  passed &= property("find_overlap: the least disk of all that overlap, as asking each of them says",
+                     [] { least_overlap_of_many(); });
+
   passed &= property("find_unreachable_goal: a slim robot reaches what free 4-neighbours join",
                      [] { reachable_where_joined(); });
 
   passed &= property("content_hash: equal for equal problems, another for each change", [] {
-    const Instance instance = (*any_case()).instance;
+    Instance instance = (*any_case()).instance;
     RC_PRE(!instance.agents.empty());
+    instance.obstacles.push_back({"", 0.5, {{0, 0}, {{0, 1.5, {0, 0}, {1, 1}}}}});
     Instance same = instance;
     same.agents[0].id = "another name";
     RC_ASSERT(content_hash(same) == content_hash(instance));
+    const auto which = *rc::gen::inRange<std::size_t>(0, instance.agents.size());
+    const auto cell = *rc::gen::inRange<std::size_t>(0, instance.map.cell_count());
+    using Motion = TimedMotion;
+    const auto agent = [which](auto change) {
+      return [which, change](Instance& other) { change(other.agents[which]); };
+    };
+    const auto obstacle = [](auto change) {
+      return [change](Instance& other) { change(other.obstacles.back()); };
+    };
+    const auto motion = [](auto change) {
+      return [change](Instance& other) { change(other.obstacles.back().trajectory.motions.back()); };
+    };
     const std::vector<std::function<void(Instance&)>> changes = {
-        [](Instance& other) { other.agents[0].speed_cells_per_s *= 2; },
-        [](Instance& other) { other.agents[0].radius_cells *= 2; },
-        [](Instance& other) { ++other.agents[0].start.x; },
-        [](Instance& other) { ++other.agents[0].goal.y; },
-        [](Instance& other) { other.agents[0].start_heading_deg += 1; },
-        [](Instance& other) { other.agents[0].goal_heading_deg = 0; },
+        agent([](Agent& it) { it.speed_cells_per_s *= 2; }),
+        agent([](Agent& it) { it.radius_cells *= 2; }),
+        agent([](Agent& it) { ++it.start.x; }),
+        agent([](Agent& it) { ++it.start.y; }),
+        agent([](Agent& it) { ++it.goal.x; }),
+        agent([](Agent& it) { ++it.goal.y; }),
+        agent([](Agent& it) { it.start_heading_deg += 1; }),
+        agent([](Agent& it) { it.goal_heading_deg = 0; }),
+        agent([](Agent& it) { it.rotation_speed *= 2; }),
+        agent([](Agent& it) {
+          it.start = {it.start.y + 1, it.start.x};
+        }),
+        obstacle([](DynamicObstacle& it) { it.radius_cells *= 2; }),
+        obstacle([](DynamicObstacle& it) { ++it.trajectory.start.x; }),
+        motion([](Motion& it) { it.begin_s += 0.125; }),
+        motion([](Motion& it) { it.end_s += 0.125; }),
+        motion([](Motion& it) { ++it.from.x; }),
+        motion([](Motion& it) { ++it.to.y; }),
         [](Instance& other) { other.agents.pop_back(); },
-        [](Instance& other) {
-          other.obstacles.push_back({"", 0.5, {{0, 0}, {}}});
-        },
-        [](Instance& other) {
-          other.map.set_blocked({0, 0}, !other.map.is_blocked({0, 0}));
+        [](Instance& other) { other.obstacles.pop_back(); },
+        [](Instance& other) { other.obstacles.back().trajectory.motions.clear(); },
+        [cell](Instance& other) {
+          other.map.set_blocked(other.map.cell(cell), !other.map.is_blocked(other.map.cell(cell)));
         },
     };
     for (const auto& change : changes) {
@@ -214,6 +267,38 @@ int main() {
       change(other);
       RC_ASSERT(content_hash(other) != content_hash(instance));
     }
+  });
+
+  passed &= property("plan_hash: equal for equal plans, another for each change", [] {
+    const Solution solution = (*any_scene()).solution;
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < solution.trajectories.size(); ++i) {
+      if (!solution.trajectories[i].motions.empty()) moving.push_back(i);
+    }
+    RC_PRE(!moving.empty());
+    const Solution same = solution;
+    RC_ASSERT(plan_hash(same) == plan_hash(solution));
+    const std::size_t which = *rc::gen::elementOf(moving);
+    const auto at = *rc::gen::inRange<std::size_t>(0, solution.trajectories[which].motions.size());
+    const auto changed = [&](auto change) {
+      Solution other = solution;
+      change(other.trajectories[which].motions[at]);
+      return plan_hash(other) != plan_hash(solution);
+    };
+    // The next double after a time is another time.
+    RC_ASSERT(changed([](TimedMotion& it) { it.begin_s = std::nextafter(it.begin_s, 1e9); }));
+    RC_ASSERT(changed([](TimedMotion& it) { it.end_s = std::nextafter(it.end_s, 1e9); }));
+    RC_ASSERT(changed([](TimedMotion& it) { ++it.from.y; }));
+    RC_ASSERT(changed([](TimedMotion& it) { ++it.to.x; }));
+    Solution other = solution;
+    ++other.trajectories[which].start.x;
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
+    other = solution;
+    other.trajectories.emplace_back();
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
+    other = solution;
+    other.trajectories[which].motions.pop_back();
+    RC_ASSERT(plan_hash(other) != plan_hash(solution));
   });
 
   passed &= property("makespan is the latest arrival, flowtime the sum of all", [] {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,11 @@ void agrees_with_points(const std::vector<OpenInterval>& spans, IntervalSet& set
 }
 
 }  // namespace
+
+std::ostream& operator<<(std::ostream& out, const OpenInterval& span) {
+  return out << "(" << span.begin_s << ", " << span.end_s << ")";
+}
+
 }  // namespace sipplab
 
 namespace rc {

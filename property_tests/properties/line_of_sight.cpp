@@ -14,9 +14,6 @@
 
 namespace sipplab {
 
-std::ostream& operator<<(std::ostream& out, Cell cell) {
-  return out << "(" << cell.x << ", " << cell.y << ")";
-}
 std::ostream& operator<<(std::ostream& out, Fraction radius) {
   return out << radius.numerator << "/" << radius.denominator;
 }

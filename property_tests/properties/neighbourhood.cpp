@@ -3,6 +3,7 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -84,6 +85,17 @@ int main() {
       RC_ASSERT(nearly(neighbourhood_distance(kMiddle, to, k), expected));
       RC_ASSERT(nearly(neighbourhood_distance(to, kMiddle, k), expected));
     }
+  });
+
+  passed &= property("neighbourhood: each of the 2^k directions that halving sectors gives, once", [] {
+    const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
+    const auto given = neighbourhood(k);
+    std::vector<Cell> steps(given.begin(), given.end());
+    std::vector<Cell> expected = mediant_neighbourhood(k);
+    const auto before = [](Cell a, Cell b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); };
+    std::sort(steps.begin(), steps.end(), before);
+    std::sort(expected.begin(), expected.end(), before);
+    RC_ASSERT(steps == expected);
   });
 
   passed &= property("neighbourhood_distance: one step never saves more than its length", [] {

@@ -166,6 +166,18 @@ int main() {
     RC_ASSERT(limited.statistics.expansions <= plan_case.options.max_expansions);
   });
 
+  passed &= property("a time limit that is over at once ends as a limit, if there is anything to plan", [] {
+    PlanCase plan_case = *any_case();
+    const PlanResult free = plan_case_of(plan_case);
+    plan_case.options.time_limit_s = 0;
+    note_case(plan_case);
+    const PlanResult limited = plan(plan_case.instance, plan_case.options);
+    if (free.statistics.expansions == 0) return;
+    RC_ASSERT(limited.status != PlanStatus::kSolved);
+    RC_ASSERT(limited.status == PlanStatus::kLimit || free.status == PlanStatus::kFailed);
+    RC_ASSERT(limited.statistics.expansions <= free.statistics.expansions);
+  });
+
   passed &= property("a budget of restarts is kept", [] {
     PlanCase plan_case = *any_case();
     const PlanResult free = plan_case_of(plan_case);

@@ -83,6 +83,19 @@ void check_against_samples(const Violation* violation, double least, double erro
   }
 }
 
+/// Cells. Longer motions than most scenes have.
+constexpr double kLongCells = 8;
+
+double longest_cells(const Scene& scene) {
+  double longest = 0;
+  for (const Body& body : bodies_of(scene)) {
+    for (const TimedMotion& motion : body.trajectory.motions) {
+      longest = std::max(longest, distance(motion.from, motion.to));
+    }
+  }
+  return longest;
+}
+
 void agrees_on_pairs(const Scene& scene) {
   const ValidationReport report = report_of(scene);
   const std::vector<Body> bodies = bodies_of(scene);
@@ -108,6 +121,7 @@ void agrees_on_pairs(const Scene& scene) {
     RC_ASSERT(report.min_clearance_cells <= least_clearance + kValidatorToleranceCells);
     RC_ASSERT(report.min_clearance_cells >= least_clearance - largest_error - kValidatorToleranceCells);
   }
+  RC_CLASSIFY(longest_cells(scene) > kLongCells, "long motions");
   RC_CLASSIFY(conflicts == 0, "no conflicts");
   RC_CLASSIFY(conflicts > 0, "conflicts");
   RC_CLASSIFY(conflicts == 0 && report.min_clearance_cells < 0.25, "close calls");

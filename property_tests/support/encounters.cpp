@@ -20,9 +20,11 @@ rc::Gen<Cell> any_place() {
       {{4, any_cell(kNearSide, kNearSide)}, {1, any_cell(kFarSide, kFarSide)}});
 }
 
-void print(std::ostream& out, Cell cell) { out << "(" << cell.x << ", " << cell.y << ")"; }
-
 }  // namespace
+
+std::ostream& operator<<(std::ostream& out, Cell cell) {
+  return out << "(" << cell.x << ", " << cell.y << ")";
+}
 
 rc::Gen<Cell> any_cell(std::int32_t width, std::int32_t height) {
   // At every size: rapidcheck narrows ranges when sizes are small.
@@ -59,14 +61,12 @@ MovingDisk Encounter::obstacle() const {
 }
 
 std::ostream& operator<<(std::ostream& out, const Encounter& encounter) {
-  print(out, encounter.from);
-  print(out << " -> ", encounter.to);
-  out << " radius " << encounter.radius << " speed " << encounter.speed << ", obstacle ";
-  print(out, encounter.obstacle_from);
-  out << " radius " << encounter.obstacle_radius << " from " << encounter.begin_s << " s ";
+  out << encounter.from << " -> " << encounter.to << " radius " << encounter.radius << " speed "
+      << encounter.speed << ", obstacle " << encounter.obstacle_from << " radius "
+      << encounter.obstacle_radius << " from " << encounter.begin_s << " s ";
   if (encounter.obstacle_from == encounter.obstacle_to)
     return out << "resting for " << encounter.rest_s << " s";
-  print(out << "-> ", encounter.obstacle_to);
+  out << "-> " << encounter.obstacle_to;
   return out << " speed " << encounter.obstacle_speed;
 }
 
@@ -110,10 +110,9 @@ Trajectory Walk::trajectory() const {
 }
 
 std::ostream& operator<<(std::ostream& out, const Walk& walk) {
-  out << "radius " << walk.radius << " at ";
-  print(out, walk.start);
+  out << "radius " << walk.radius << " at " << walk.start;
   for (const TimedMotion& motion : walk.trajectory().motions) {
-    print(out << " until " << motion.end_s << " ", motion.to);
+    out << " until " << motion.end_s << " " << motion.to;
   }
   return out;
 }

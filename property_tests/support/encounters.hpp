@@ -24,6 +24,9 @@ rc::Gen<Value> any_of(std::initializer_list<Value> values) {
                       [all](std::size_t index) { return all[index]; });
 }
 
+/// (column, row).
+std::ostream& operator<<(std::ostream& out, Cell cell);
+
 /// Columns 0 .. width - 1, rows 0 .. height - 1.
 rc::Gen<Cell> any_cell(std::int32_t width, std::int32_t height);
 /// From very small to several cells, 1/2 above all.

@@ -17,10 +17,11 @@ namespace {
 constexpr double kSlotS = 1e-8;
 
 /// Unsafe times that the spans found by bisection give.
-void add_unsafe(const BisectedSpan& span, std::vector<OpenInterval>& unsafe) {
+void add_unsafe(const BisectedSpan& span, Contacts contacts, std::vector<OpenInterval>& unsafe) {
   if (span.empty) return;
-  unsafe.push_back({span.contact_begin ? span.begin_s + kSlotS : span.begin_s - kSlotS,
-                    span.contact_end ? span.end_s - kSlotS : span.end_s + kSlotS});
+  const bool allowed = contacts == Contacts::kAllowed;
+  unsafe.push_back({allowed && span.contact_begin ? span.begin_s + kSlotS : span.begin_s - kSlotS,
+                    allowed && span.contact_end ? span.end_s - kSlotS : span.end_s + kSlotS});
 }
 
 /// What the unsafe spans leave of [0, infinity).
@@ -37,6 +38,31 @@ std::vector<Interval> safe_between(std::vector<OpenInterval> unsafe) {
   return safe;
 }
 
+/// Cells. Less than a contact counts as apart.
+constexpr double kTouchCells = 1e-7;
+
+/// Cells. At the very edge of what is pardoned a way may be judged either way.
+constexpr double kEdgeCells = 1e-6;
+
+/// Where along the endless line through both, in cells from `from`, it is within reach of a
+/// place. Empty where the way itself never is; REQUIRES: the way has a length.
+struct Within {
+  double begin = 0;
+  double end = 0;
+  bool empty = true;
+};
+
+Within within(Vec2 place, double reach, Vec2 from, Vec2 to) {
+  const double length = norm(to - from);
+  const Vec2 apart = place - from;
+  const Vec2 along{(to.x - from.x) / length, (to.y - from.y) / length};
+  const double nearest = apart.x * along.x + apart.y * along.y;
+  const double aside = apart.x * along.y - apart.y * along.x;
+  if (std::abs(aside) >= reach) return {};
+  const double half = std::sqrt(reach * reach - aside * aside);
+  return {nearest - half, nearest + half, nearest - half > length || nearest + half < 0};
+}
+
 struct Label {
   Cell cell;
   Interval interval;
@@ -46,14 +72,20 @@ struct Label {
 
 class Search {
  public:
-  Search(const GridMap& map, const std::vector<MovingDisk>& disks, const LoneRobot& robot)
-      : map_(map), disks_(disks), robot_(robot), steps_(mediant_neighbourhood(robot.connectedness)) {
+  Search(const GridMap& map, const std::vector<MovingDisk>& disks, const LoneRobot& robot,
+         const std::vector<Forbidden>& forbidden, Contacts contacts)
+      : map_(map),
+        disks_(disks),
+        robot_(robot),
+        forbidden_(forbidden),
+        contacts_(contacts),
+        steps_(mediant_neighbourhood(robot.connectedness)) {
     for (std::size_t i = 0; i < map.cell_count(); ++i) {
       const Cell cell = map.cell(i);
-      if (!exactly_legal(map, robot.radius, cell)) continue;
+      if (!exactly_legal(map, robot.radius, cell) || is_forbidden(cell, cell)) continue;
       std::vector<OpenInterval> unsafe;
       for (const MovingDisk& disk : disks) {
-        add_unsafe(bisect_collision(centre(cell), disk, reach(disk)), unsafe);
+        add_unsafe(bisect_collision(centre(cell), disk, reach(disk)), contacts_, unsafe);
       }
       for (const Interval& interval : safe_between(unsafe)) {
         const bool at_start = cell == robot.start && interval.contains(0);
@@ -78,11 +110,20 @@ class Search {
  private:
   double reach(const MovingDisk& disk) const { return robot_.radius.value() + disk.radius; }
 
+  bool is_forbidden(Cell from, Cell to) const {
+    return std::any_of(forbidden_.begin(), forbidden_.end(), [&](const Forbidden& forbidden) {
+      const double tolerated = contacts_ == Contacts::kAllowed ? kEdgeCells : -kEdgeCells;
+      return intrusion_cells(forbidden, centre(from), centre(to)) > tolerated;
+    });
+  }
+
   void leave(const Label& from, Cell to) {
     if (!exactly_legal(map_, robot_.radius, to) || !exactly_clear(map_, robot_.radius, from.cell, to)) return;
+    if (is_forbidden(from.cell, to)) return;
     const Move move(Displacement(centre(from.cell), centre(to)), robot_.speed);
     std::vector<OpenInterval> unsafe;
-    for (const MovingDisk& disk : disks_) add_unsafe(bisect_departures(move, disk, reach(disk)), unsafe);
+    for (const MovingDisk& disk : disks_)
+      add_unsafe(bisect_departures(move, disk, reach(disk)), contacts_, unsafe);
     const std::vector<Interval> departures = safe_between(unsafe);
     for (Label& target : labels_) {
       if (target.cell != to || target.settled) continue;
@@ -100,6 +141,8 @@ class Search {
   const GridMap& map_;
   const std::vector<MovingDisk>& disks_;
   const LoneRobot& robot_;
+  const std::vector<Forbidden>& forbidden_;
+  Contacts contacts_;
   std::vector<Cell> steps_;
   std::vector<Label> labels_;
 };
@@ -120,9 +163,25 @@ std::vector<Cell> mediant_neighbourhood(int k) {
   return steps;
 }
 
+double intrusion_cells(const Forbidden& forbidden, Vec2 from, Vec2 to) {
+  const double length = norm(to - from);
+  if (length == 0) {
+    if (norm(forbidden.place - from) >= forbidden.reach - kTouchCells) return -forbidden.reach;
+    return norm(forbidden.pardoned - from) - forbidden.reach;
+  }
+  const Within inside = within(forbidden.place, forbidden.reach - kTouchCells, from, to);
+  if (inside.empty) return -forbidden.reach;
+  const double begin = std::max(0.0, inside.begin);
+  const double end = std::min(length, inside.end);
+  const Within pardoned = within(forbidden.pardoned, forbidden.reach, from, to);
+  if (pardoned.empty) return end - begin;
+  return std::max(pardoned.begin - begin, end - pardoned.end);
+}
+
 std::optional<double> earliest_arrival_s(const GridMap& map, const std::vector<MovingDisk>& disks,
-                                         const LoneRobot& robot) {
-  return Search(map, disks, robot).run();
+                                         const LoneRobot& robot, const std::vector<Forbidden>& forbidden,
+                                         Contacts contacts) {
+  return Search(map, disks, robot, forbidden, contacts).run();
 }
 
 }  // namespace sipplab

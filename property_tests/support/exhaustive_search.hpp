@@ -24,9 +24,29 @@ struct LoneRobot {
   int connectedness = 2;
 };
 
+/// A place that the robot may come within reach of only while it is within the same reach
+/// of `pardoned`: a start that is protected for ever, seen by a robot whose goal overlaps it.
+struct Forbidden {
+  Vec2 place;
+  double reach;
+  Vec2 pardoned;
+};
+
+/// How far, in cells, the way leads on within reach of the place and out of reach of what
+/// is pardoned; negative where it does not come to that, by how far it misses.
+double intrusion_cells(const Forbidden& forbidden, Vec2 from, Vec2 to);
+
+/// How contacts count. Robots that give way to each other move by slacks of 1e-9 s, so
+/// that among several of them what ought to be a contact may be an overlap or a gap.
+enum class Contacts {
+  kAllowed,  ///< slots of zero width count, and what nearly is one
+  kAvoided,  ///< where a contact is left out, so is what is nearly one
+};
+
 /// When the robot can be at its goal for good, at the earliest; nothing where it never
-/// can. Slots of zero width count. Exact to some 1e-8 s per move.
+/// can. Exact to some 1e-8 s per move.
 std::optional<double> earliest_arrival_s(const GridMap& map, const std::vector<MovingDisk>& disks,
-                                         const LoneRobot& robot);
+                                         const LoneRobot& robot, const std::vector<Forbidden>& forbidden = {},
+                                         Contacts contacts = Contacts::kAllowed);
 
 }  // namespace sipplab

@@ -156,6 +156,15 @@ void print_summary(const PropertyRecord& record) {
             << record.reproduce << "\" property_" << record.room << '\n';
 }
 
+/// Appends the record to the log, where there is one. False where that fails.
+bool log(const PropertyRecord& record) {
+  const char* path = std::getenv("SIPPLAB_PROPERTY_LOG");
+  if (path == nullptr || *path == '\0') return true;
+  const auto error = append_to_log(path, record);
+  if (error) std::cerr << *error << '\n';
+  return !error;
+}
+
 /// Tries one counterexample again. rapidcheck's own way reports "holds by now" and
 /// "cannot be found any more" as the same kind of error.
 bool reproduce_failure(const rc::detail::Property& property, const Reproduce& reproduce) {
@@ -191,6 +200,8 @@ bool run_property(const std::string& room, const std::string& title, const rc::d
   record.title = title;
   record.seed = configuration.testParams.seed;
   record.max_success = configuration.testParams.maxSuccess;
+  record.status = "started";
+  if (!log(record)) return false;
   Tally tally(record);
   const auto begin = std::chrono::steady_clock::now();
   rc::detail::TestMetadata metadata;
@@ -214,14 +225,7 @@ bool run_property(const std::string& room, const std::string& title, const rc::d
   }
   print_summary(record);
 
-  const char* log = std::getenv("SIPPLAB_PROPERTY_LOG");
-  if (log != nullptr && *log != '\0') {
-    if (const auto error = append_to_log(log, record)) {
-      std::cerr << *error << '\n';
-      return false;
-    }
-  }
-  return record.status == "passed";
+  return log(record) && record.status == "passed";
 }
 
 }  // namespace sipplab

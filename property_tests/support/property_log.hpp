@@ -19,7 +19,9 @@ struct PropertyRecord {
   std::string title;
   std::uint64_t seed = 0;
   int max_success = 0;        ///< cases that were asked for
-  std::string status;         ///< "passed", "failed", "gave_up" (too many discards)
+  /// "started", then, in a second line with the same UUID, "passed", "failed" or "gave_up"
+  /// (too many discards). A run of which there is no second line has crashed.
+  std::string status;
   std::int64_t cases = 0;     ///< tested, the failing one included
   std::int64_t discards = 0;  ///< drawn, but the property says nothing about them
   std::int64_t shrinks = 0;   ///< steps from the first counterexample to the smallest

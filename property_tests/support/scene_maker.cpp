@@ -12,23 +12,29 @@
 namespace sipplab {
 namespace {
 
-/// Cells. Most motions are short, so that robots meet often.
+/// Cells. Most motions are short, so that robots meet often; on wide maps some go across
+/// all of it, far from the places where most of the others are looked for.
 constexpr std::int32_t kStride = 3;
+constexpr std::int32_t kWideSide = 24;
+/// On wide maps, where each takes long.
+constexpr std::uint64_t kMostLongMotions = 3;
 
-std::int32_t near(Random& random, std::int32_t coordinate, std::int32_t side) {
-  const auto step = static_cast<std::int32_t>(random.below(2 * kStride + 1)) - kStride;
+std::int32_t near(Random& random, std::int32_t coordinate, std::int32_t side, std::int32_t stride) {
+  const auto step =
+      static_cast<std::int32_t>(random.below(2 * static_cast<std::uint64_t>(stride) + 1)) - stride;
   return std::clamp(coordinate + step, 0, side - 1);
 }
 
-Trajectory walk(Random& random, const GridMap& map, double speed, std::uint64_t motions) {
+Trajectory walk(Random& random, const GridMap& map, double speed, std::uint64_t motions,
+                std::int32_t stride) {
   Trajectory trajectory;
   trajectory.start = draw_cell(random, map);
   for (std::uint64_t i = 0; i < motions; ++i) {
     const Cell from = trajectory.end();
     const double begin_s = trajectory.arrival_s();
-    const Cell to = random.below(4) == 0
-                        ? from
-                        : Cell{near(random, from.x, map.width()), near(random, from.y, map.height())};
+    const Cell to = random.below(4) == 0 ? from
+                                         : Cell{near(random, from.x, map.width(), stride),
+                                                near(random, from.y, map.height(), stride)};
     const double duration_s = from == to ? 0.125 + draw_eighths(random, 2) : distance(from, to) / speed;
     trajectory.motions.push_back({begin_s, begin_s + duration_s, from, to});
   }
@@ -54,7 +60,10 @@ void print(std::ostream& out, const Trajectory& trajectory) {
 Scene make_scene(int size, std::uint64_t seed) {
   Random random(seed);
   Scene scene;
+  const bool wide = random.below(5) == 0;
+  const std::int32_t stride = wide ? kWideSide : kStride;
   const auto side = [&] {
+    if (wide) return 8 + static_cast<std::int32_t>(random.below(kWideSide - 8));
     return 3 + static_cast<std::int32_t>(random.below(3 + static_cast<std::uint64_t>(size) / 5));
   };
   GridMap& map = scene.instance.map;
@@ -64,7 +73,7 @@ Scene make_scene(int size, std::uint64_t seed) {
   }
   const bool mixed = random.below(2) == 0;
   const std::uint64_t robots = random.below(3 + static_cast<std::uint64_t>(size) / 10);
-  const std::uint64_t most_motions = 1 + static_cast<std::uint64_t>(size) / 10;
+  const std::uint64_t most_motions = wide ? kMostLongMotions : 1 + static_cast<std::uint64_t>(size) / 10;
   for (std::uint64_t i = 0; i < robots; ++i) {
     Agent agent;
     agent.id = std::to_string(i);
@@ -72,7 +81,8 @@ Scene make_scene(int size, std::uint64_t seed) {
       agent.radius_cells = draw_radius(random);
       agent.speed_cells_per_s = draw_speed(random);
     }
-    const Trajectory trajectory = walk(random, map, agent.speed_cells_per_s, random.below(most_motions + 1));
+    const Trajectory trajectory =
+        walk(random, map, agent.speed_cells_per_s, random.below(most_motions + 1), stride);
     agent.start = trajectory.start;
     agent.goal = trajectory.end();
     scene.instance.agents.push_back(agent);
@@ -82,7 +92,7 @@ Scene make_scene(int size, std::uint64_t seed) {
     DynamicObstacle obstacle;
     obstacle.id = "0";
     obstacle.radius_cells = draw_radius(random);
-    obstacle.trajectory = walk(random, map, draw_speed(random), random.below(most_motions + 1));
+    obstacle.trajectory = walk(random, map, draw_speed(random), random.below(most_motions + 1), stride);
     scene.instance.obstacles.push_back(obstacle);
   }
   return scene;

@@ -12,7 +12,8 @@ namespace sipplab {
 /// Robots that start where they like, make straight motions at their own speed and
 /// waits of k/8 seconds, and whose goals are where they end. They may collide, run
 /// over blocked cells and stick out of the map; that is for the validator to say.
-/// `size` from 0 to 100 bounds map, robots and motions.
+/// `size` from 0 to 100 bounds map, robots and motions; one scene in five is wide, with
+/// long motions.
 Scene make_scene(int size, std::uint64_t seed);
 
 /// Scenes that are simpler by one step: fewer robots, shorter walks, fewer

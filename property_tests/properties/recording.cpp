@@ -1,0 +1,384 @@
+// How a history comes about: runs that are interrupted, taken over, excluded and taken up
+// again, against lists of what was done. What one run holds is checked in history.cpp.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "db/database.hpp"
+#include "db/migrate.hpp"
+#include "db/queries.hpp"
+#include "db/recorder.hpp"
+#include "db/sqlite/statement.hpp"
+#include "db/statistics/statistics.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/property.hpp"
+#include "property_tests/support/scratch_folder.hpp"
+#include "property_tests/support/texts.hpp"
+
+namespace sipplab::db {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) RC_FAIL(result.error().message);
+  return std::move(*result);
+}
+
+std::int64_t ask(Database& database, const std::string& sql) {
+  return must(database.connection().query_int(sql, "asking"));
+}
+
+/// A folder with an empty history in it: a copy, since making one takes longer than most
+/// of what is done to it here.
+class NewHistory {
+ public:
+  NewHistory() {
+    static const ScratchFolder kPattern;
+    static const fs::path kEmpty = kPattern.path() / "history.db";
+    if (!fs::exists(kEmpty)) must(Database::open(kEmpty));
+    fs::copy_file(kEmpty, path());
+  }
+  fs::path path() const { return folder_.path() / "history.db"; }
+
+ private:
+  ScratchFolder folder_;
+};
+
+CaseInfo the_case(int number) {
+  CaseInfo info;
+  info.environment = "empty";
+  info.robots = number;
+  return info;
+}
+
+RunInfo the_run(const std::string& suite) {
+  RunInfo info;
+  info.suite = suite;
+  info.machine.host = "host";
+  info.build.compiler = "gcc";
+  return info;
+}
+
+InstanceInfo the_instance(int number) {
+  InstanceInfo info;
+  info.content_hash = "instance " + std::to_string(number);
+  return info;
+}
+
+void add_results(RunRecorder& recorder, int number, int results) {
+  for (int i = 0; i < results; ++i) {
+    ResultRow row;
+    row.position = i;
+    recorder.add(the_case(number), the_instance(i), row);
+  }
+}
+
+// --- interruptions ------------------------------------------------------------------
+
+constexpr int kMostSessions = 3;
+
+/// What one start of a sweep gets done before it is interrupted.
+struct Session {
+  int cases = 0;            ///< that it finishes
+  bool begins_one = false;  ///< of which nothing may be kept
+  bool aborted = false;     ///< ended by its user, else killed
+};
+
+Session any_session() {
+  return {*rc::gen::inRange(0, 4), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+}
+
+void ends_as_if_never_interrupted() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  const int cases = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 8));
+  const int results = *rc::gen::inRange(0, 3);
+  std::string uuid;
+  std::set<int> done;
+  int sessions = 0;
+  for (bool finished = false; !finished; ++sessions) {
+    // The last one of many does all that is left.
+    const Session session = sessions < kMostSessions ? any_session() : Session{cases, false, false};
+    Database database = must(Database::open(path));
+    const auto found = must(find_resumable_run(database, the_run("smoke")));
+    RC_ASSERT(found.has_value() == (sessions > 0));
+    if (found) {
+      RC_ASSERT(found->uuid == uuid);
+      RC_ASSERT(found->finished_cases == done.size());
+    }
+    RunRecorder recorder = must(found ? RunRecorder::resume(std::move(database), uuid)
+                                      : RunRecorder::begin(std::move(database), the_run("smoke")));
+    uuid = recorder.run_uuid();
+    int left = session.cases;
+    for (int number = 0; number < cases && left > 0; ++number) {
+      RC_ASSERT(recorder.is_finished(the_case(number)) == (done.count(number) > 0));
+      if (recorder.is_finished(the_case(number))) continue;
+      add_results(recorder, number, results);
+      must(recorder.commit_case(the_case(number)));
+      done.insert(number);
+      --left;
+    }
+    if (session.begins_one) add_results(recorder, cases, 1);
+    finished = static_cast<int>(done.size()) == cases;
+    if (finished) {
+      must(recorder.finish(RunStatus::kFinished));
+    } else if (session.aborted) {
+      must(recorder.finish(RunStatus::kAborted));
+    } else {
+      // As after a kill: the writer lives no more.
+      Database killed = must(Database::open(path));
+      must(killed.connection().execute("UPDATE run SET writer = ''", "ending a process"));
+    }
+  }
+  Database database = must(Database::open(path));
+  RC_ASSERT(!must(find_resumable_run(database, the_run("smoke"))).has_value());
+  RC_ASSERT(ask(database, "SELECT count(*) FROM run") == 1);
+  RC_ASSERT(ask(database, "SELECT count(*) FROM v_results") == cases * results);
+  const std::vector<CaseInfo> kept = must(finished_cases(database, uuid));
+  RC_ASSERT(kept.size() == done.size());
+  for (int number = 0; number < cases; ++number) {
+    RC_ASSERT(std::count(kept.begin(), kept.end(), the_case(number)) == 1);
+  }
+  RC_CLASSIFY(sessions > 1, "resumed");
+}
+
+void resumes_only_its_like() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  {
+    RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+    must(recorder.finish(RunStatus::kAborted));
+  }
+  RunInfo info = the_run("smoke");
+  const std::vector<std::string*> texts = {&info.suite,
+                                           &info.options,
+                                           &info.machine.host,
+                                           &info.machine.kernel,
+                                           &info.build.compiler,
+                                           &info.build.compiler_version,
+                                           &info.build.flags,
+                                           &info.build.build_type,
+                                           &info.build.sanitizers,
+                                           &info.build.binary_hash};
+  Database database = must(Database::open(path));
+  RC_ASSERT(must(find_resumable_run(database, info)).has_value());
+  const auto which = *rc::gen::inRange<std::size_t>(0, texts.size() + 3);
+  if (which < texts.size()) {
+    *texts[which] += " and more";
+  } else if (which == texts.size()) {
+    info.build.assertions = !info.build.assertions;
+  } else if (which == texts.size() + 1) {
+    info.build.dirty = !info.build.dirty;
+  } else {
+    must(exclude_run(database, "latest", "noise"));
+  }
+  RC_ASSERT(!must(find_resumable_run(database, info)).has_value());
+}
+
+void has_one_writer() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+  const int before = *rc::gen::inRange(0, 3);
+  for (int number = 0; number < before; ++number) {
+    add_results(recorder, number, 2);
+    must(recorder.commit_case(the_case(number)));
+  }
+  Database other = must(Database::open(path));
+  must(other.connection().execute("UPDATE run SET writer = writer || ', another one'", "taking over"));
+  add_results(recorder, before, 2);
+  RC_ASSERT(!recorder.commit_case(the_case(before)).has_value());
+  RC_ASSERT(!recorder.finish(RunStatus::kFinished).has_value());
+  RC_ASSERT(ask(other, "SELECT count(*) FROM v_results") == 2 * before);
+  RC_ASSERT(ask(other, "SELECT count(*) FROM run WHERE status = 'running'") == 1);
+}
+
+void writes_cases_whole() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+  std::int64_t expected = 0;
+  int refused = 0;
+  for (int number = 0; number < 3; ++number) {
+    const int results = *rc::gen::inRange(0, 4);
+    add_results(recorder, number, results);
+    const bool twice = results > 0 && *rc::gen::arbitrary<bool>();
+    if (twice) add_results(recorder, number, 1);
+    RC_ASSERT(recorder.commit_case(the_case(number)).has_value() == !twice);
+    RC_ASSERT(recorder.is_finished(the_case(number)) == !twice);
+    refused += twice;
+    if (!twice) expected += results;
+    Database database = must(Database::open(path));
+    RC_ASSERT(ask(database, "SELECT count(*) FROM result") == expected);
+    RC_ASSERT(must(finished_cases(database, recorder.run_uuid())).size() ==
+              static_cast<std::size_t>(number + 1 - refused));
+    if (twice) recorder.discard_case(the_case(number));
+  }
+  RC_CLASSIFY(refused > 0, "some refused");
+}
+
+// --- what is kept of commits, limits and exclusions ---------------------------------
+
+constexpr std::size_t kMostCommits = 3;
+
+void known_counts_stay() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  const auto commits = *rc::gen::container<std::vector<std::pair<int, bool>>>(
+      kMostCommits, rc::gen::pair(rc::gen::inRange(1, 3), rc::gen::arbitrary<bool>()));
+  std::map<int, bool> known;
+  for (const auto& [number, shallow] : commits) {
+    RunInfo info = the_run("smoke");
+    const std::int64_t count = shallow ? 0 : 10 * number;
+    CommitInfo commit;
+    commit.hash = "0123456789abcdef" + std::to_string(number);
+    commit.ancestor_count = count;
+    commit.first_parent_count = count;
+    info.commit = commit;
+    must(RunRecorder::begin(must(Database::open(path)), info));
+    known[number] = known[number] || !shallow;
+  }
+  Database database = must(Database::open(path));
+  for (const auto& [number, is_known] : known) {
+    const std::string of = " FROM commit_ WHERE hash = '0123456789abcdef" + std::to_string(number) + "'";
+    RC_ASSERT(ask(database, "SELECT ancestor_count" + of) == (is_known ? 10 * number : 0));
+    RC_ASSERT(ask(database, "SELECT first_parent_count" + of) == (is_known ? 10 * number : 0));
+  }
+}
+
+/// Counts around the largest that SQL can hold.
+std::uint64_t any_huge_count() { return kNoCountLimit - 2 + *rc::gen::inRange<std::uint64_t>(0, 5); }
+
+void huge_counts_are_no_limit() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+  CaseInfo info = the_case(1);
+  info.max_expansions = *rc::gen::arbitrary<bool>() ? UINT64_MAX : any_huge_count();
+  info.max_restarts = any_huge_count();
+  ResultRow row;
+  row.expansions = any_huge_count();
+  row.generations = any_huge_count();
+  recorder.add(info, the_instance(1), row);
+  must(recorder.commit_case(info));
+  Database database = must(Database::open(path));
+  const std::vector<CaseInfo> kept = must(finished_cases(database, recorder.run_uuid()));
+  RC_ASSERT(kept.size() == 1u);
+  RC_ASSERT(kept[0].max_expansions == std::min(info.max_expansions, kNoCountLimit));
+  RC_ASSERT(kept[0].max_restarts == std::min(info.max_restarts, kNoCountLimit));
+  RC_ASSERT(static_cast<std::uint64_t>(ask(database, "SELECT expansions FROM result")) ==
+            std::min(row.expansions, kNoCountLimit));
+  RC_ASSERT(static_cast<std::uint64_t>(ask(database, "SELECT generations FROM result")) ==
+            std::min(row.generations, kNoCountLimit));
+}
+
+void exclusion_hides_and_comes_back() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  std::vector<std::string> uuids;
+  for (int i = 0; i < 2; ++i) {
+    RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
+    must(recorder.finish(RunStatus::kFinished));
+    uuids.push_back(recorder.run_uuid());
+  }
+  Database database = must(Database::open(path));
+  std::set<std::string> excluded;
+  const auto steps = *rc::gen::container<std::vector<std::pair<int, bool>>>(
+      rc::gen::pair(rc::gen::inRange(0, 2), rc::gen::arbitrary<bool>()));
+  for (const auto& [which, out] : steps) {
+    const std::string& uuid = uuids[static_cast<std::size_t>(which)];
+    // A run is excluded once, and taken back once: the rest is an error and changes nothing.
+    if (out && excluded.count(uuid) == 0) {
+      must(exclude_run(database, uuid, "noise"));
+      excluded.insert(uuid);
+    } else if (!out && excluded.count(uuid) > 0) {
+      must(include_run(database, uuid));
+      excluded.erase(uuid);
+    }
+  }
+  std::set<std::string> listed;
+  for (const RunSummary& run : must(list_runs(database))) listed.insert(run.uuid);
+  for (const std::string& uuid : uuids) RC_ASSERT(listed.count(uuid) == 1 - excluded.count(uuid));
+  RunFilter all;
+  all.include_excluded = true;
+  RC_ASSERT(must(list_runs(database, all)).size() == uuids.size());
+  RC_ASSERT(resolve_run(database, "latest").has_value() == (excluded.size() < uuids.size()));
+  RC_CLASSIFY(!excluded.empty(), "some excluded");
+}
+
+void newer_schemas_are_refused() {
+  const NewHistory history;
+  const fs::path path = history.path();
+  const int version = Database::latest_schema_version() + *rc::gen::inRange(1, 100);
+  {
+    auto connection = must(sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite));
+    must(connection.execute("PRAGMA user_version = " + std::to_string(version), "ageing"));
+  }
+  for (const auto& opened : {Database::open(path), Database::open_read_only(path)}) {
+    RC_ASSERT(!opened.has_value());
+    RC_ASSERT(opened.error().kind == ErrorKind::kNewerSchema);
+  }
+  auto connection = must(sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite));
+  RC_ASSERT(must(connection.query_int("PRAGMA user_version", "asking")) == version);
+}
+
+// --- statistics ---------------------------------------------------------------------
+
+/// The quantile by its definition: values as equally spaced points of a broken line.
+double on_the_line(std::vector<double> values, double p) {
+  std::sort(values.begin(), values.end());
+  const double steps = static_cast<double>(values.size() - 1);
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const double left = static_cast<double>(i) / steps;
+    const double right = static_cast<double>(i + 1) / steps;
+    if (p > right) continue;
+    const double part = (p - left) / (right - left);
+    return values[i] * (1 - part) + values[i + 1] * part;
+  }
+  return values.back();
+}
+
+void quantiles_are_on_the_line() {
+  const auto sixteenths = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(-99, 99)));
+  std::vector<double> values;
+  for (const int number : sixteenths) values.push_back(number / 16.0);
+  const double p = *rc::gen::inRange(0, 65) / 64.0;
+  const auto quantile = statistics::quantile(values, p);
+  RC_ASSERT(quantile.has_value());
+  RC_ASSERT(std::abs(*quantile - on_the_line(values, p)) < 1e-9);
+  RC_ASSERT(*statistics::median(values) == *statistics::quantile(values, 0.5));
+  RC_ASSERT(!statistics::quantile({}, p).has_value());
+}
+
+}  // namespace
+}  // namespace sipplab::db
+
+int main() {
+  using namespace sipplab;
+  using namespace sipplab::db;
+  bool passed = true;
+
+  passed &= property("a run that is resumed any number of times ends as if it was never interrupted",
+                     ends_as_if_never_interrupted);
+  passed &= property("a run is resumed by its like only, and not once it is excluded", resumes_only_its_like);
+  passed &= property("a run that another process took over is not written to", has_one_writer);
+  passed &= property("a case is recorded whole or not at all", writes_cases_whole);
+  passed &= property("what is known of a commit's place in history is not forgotten", known_counts_stay);
+  passed &=
+      property("counts that SQL cannot hold are no limit, and none turns negative", huge_counts_are_no_limit);
+  passed &= property("excluded runs are left out until they are taken back", exclusion_hides_and_comes_back);
+  passed &=
+      property("a history of any newer schema is refused and stays as it is", newer_schemas_are_refused);
+  passed &= property("a quantile lies on the line through the sorted values", quantiles_are_on_the_line);
+
+  return passed ? 0 : 1;
+}
