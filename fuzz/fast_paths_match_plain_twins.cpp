@@ -2,6 +2,7 @@
 // reservation table and late evaluation of arrivals. The traffic is the plan of the case
 // itself, in which contacts are everywhere. Nothing is claimed of the straight shot at the
 // goal: with other robots about, the search may arrive earlier without it, or later.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -100,7 +101,7 @@ void check_safe_intervals(const Instance& instance, const Agent& agent, const Tr
       }
       cut(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, traffic.radii[k]));
     }
-    require_twins(table.safe_intervals(cell, agent.radius_cells) == expected.intervals(),
+    require_twins(std::ranges::equal(table.safe_intervals(cell, agent.radius_cells), expected.intervals()),
                   "other safe intervals");
   }
 }

@@ -19,8 +19,9 @@ struct SippOptions {
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
   /// Try the straight way to the goal from each expanded node, departing at once: it
-  /// arrives as early as the node's f promises, so nothing can be better and the search
-  /// ends. Any-angle only.
+  /// arrives as early as the node's f promises, which is the least in OPEN, and the search
+  /// ends. Any-angle only, where the search is greedy and f may fall along a way: now and
+  /// then an earlier arrival would have been found by searching on.
   bool direct_shot = true;
   /// Queue successors with a lower bound on their arrival and compute the arrival when
   /// they come up; off: compute it for each successor at once, the plain twin. The two

@@ -94,10 +94,15 @@ Verdict sampled(const Keepout& keepout, const Question& question) {
   return touches ? Verdict::kKeepsAway : Verdict::kNearTheEdge;
 }
 
+std::vector<SafeInterval> safe_intervals(ReservationTable& table, const Question& question) {
+  const std::span<const SafeInterval> safe = table.safe_intervals(question.from, question.radius);
+  return {safe.begin(), safe.end()};
+}
+
 /// When the robot may leave, or stay from, at time 0 with nothing else on the map.
 bool may_go(ReservationTable& table, const Question& question) {
   if (question.from == question.to) {
-    const auto& safe = table.safe_intervals(question.from, question.radius);
+    const std::vector<SafeInterval> safe = safe_intervals(table, question);
     RC_ASSERT(safe.empty() || safe == std::vector<SafeInterval>{SafeInterval{}});
     return !safe.empty();
   }
@@ -163,9 +168,8 @@ int main() {
       if (verdict == Verdict::kNearTheEdge) continue;
       const bool away = verdict == Verdict::kKeepsAway;
       if (question.from == question.to) {
-        const auto expected =
-            away ? free.safe_intervals(question.from, question.radius) : std::vector<SafeInterval>{};
-        RC_ASSERT(kept.safe_intervals(question.from, question.radius) == expected);
+        const auto expected = away ? safe_intervals(free, question) : std::vector<SafeInterval>{};
+        RC_ASSERT(safe_intervals(kept, question) == expected);
         continue;
       }
       const Move move(Displacement(centre(question.from), centre(question.to)), 1.0);
