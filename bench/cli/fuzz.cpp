@@ -30,7 +30,7 @@ struct FuzzArguments {
   bench::CampaignOptions campaign;
   std::string programs = "build/fuzz/fuzz";
   std::string sources = "fuzz";
-  std::string work = "build/fuzz/work";
+  std::string work = "build/fuzz/runs";
 
   // list
   std::optional<std::string> target;
