@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "db/fuzz_keys.hpp"
+#include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
 
@@ -129,7 +129,7 @@ Result<StoredFinding> record_finding(Database& database, const FuzzOrigin& origi
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = fuzz_keys(connection, origin);
+  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
   if (!keys) return Unexpected{keys.error()};
   const auto known = find_by_signature(connection, finding);
   if (!known) return Unexpected{known.error()};
@@ -154,7 +154,7 @@ Result<StoredFinding> record_replay(Database& database, const FuzzOrigin& origin
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = fuzz_keys(connection, origin);
+  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
   if (!keys) return Unexpected{keys.error()};
   const auto stored = find_finding(database, id);
   if (!stored) return stored;

@@ -1,7 +1,6 @@
 // Fuzzing runs: written whole, read from their views.
 #include "db/fuzz_runs.hpp"
 
-#include "db/fuzz_keys.hpp"
 #include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
@@ -49,27 +48,11 @@ Result<Done> insert_counts(sqlite::Connection& connection, std::int64_t id,
 
 }  // namespace
 
-Result<FuzzKeys> fuzz_keys(sqlite::Connection& connection, const FuzzOrigin& origin) {
-  FuzzKeys keys;
-  if (origin.commit) {
-    const auto commit = commit_id(connection, *origin.commit);
-    if (!commit) return Unexpected{commit.error()};
-    keys.commit = *commit;
-  }
-  const auto machine = machine_id(connection, origin.machine);
-  if (!machine) return Unexpected{machine.error()};
-  keys.machine = *machine;
-  const auto build = build_id(connection, origin.build);
-  if (!build) return Unexpected{build.error()};
-  keys.build = *build;
-  return keys;
-}
-
 Result<std::int64_t> record_fuzz_run(Database& database, const FuzzOrigin& origin, const FuzzRun& run) {
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = fuzz_keys(connection, origin);
+  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
   if (!keys) return Unexpected{keys.error()};
   auto insert = Statement::prepare(
       connection,

@@ -16,14 +16,6 @@ using sqlite::Statement;
 
 constexpr std::string_view kWriting = "writing a gate run";
 
-Result<std::optional<std::int64_t>> optional_commit_id(Connection& connection,
-                                                       const std::optional<CommitInfo>& commit) {
-  if (!commit) return std::optional<std::int64_t>{};
-  const auto id = commit_id(connection, *commit);
-  if (!id) return Unexpected{id.error()};
-  return std::optional<std::int64_t>{*id};
-}
-
 Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, const std::string& uuid) {
   const auto machine = machine_id(connection, run.machine);
   if (!machine) return machine;
@@ -31,9 +23,9 @@ Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, cons
   if (!base_build) return base_build;
   const auto head_build = build_id(connection, run.head_build);
   if (!head_build) return head_build;
-  const auto base_commit = optional_commit_id(connection, run.base_commit);
+  const auto base_commit = commit_id(connection, run.base_commit);
   if (!base_commit) return Unexpected{base_commit.error()};
-  const auto head_commit = optional_commit_id(connection, run.head_commit);
+  const auto head_commit = commit_id(connection, run.head_commit);
   if (!head_commit) return Unexpected{head_commit.error()};
   auto insert = Statement::prepare(
       connection,

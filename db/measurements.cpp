@@ -15,16 +15,8 @@ constexpr const char* kDoing = "writing measurements";
 
 /// The key of the new run; none where it is there already.
 Result<std::optional<std::int64_t>> insert_run(Connection& connection, const MeasurementRun& run) {
-  std::optional<std::int64_t> commit;
-  if (run.info.commit) {
-    const auto id = commit_id(connection, *run.info.commit);
-    if (!id) return Unexpected{id.error()};
-    commit = *id;
-  }
-  const auto machine = machine_id(connection, run.info.machine);
-  if (!machine) return Unexpected{machine.error()};
-  const auto build = build_id(connection, run.info.build);
-  if (!build) return Unexpected{build.error()};
+  const auto keys = origin_keys(connection, run.info.commit, run.info.machine, run.info.build);
+  if (!keys) return Unexpected{keys.error()};
   auto insert = Statement::prepare(
       connection,
       "INSERT INTO run (uuid, suite, started_utc, ended_utc, status, commit_id, machine_id, build_id, "
@@ -33,8 +25,8 @@ Result<std::optional<std::int64_t>> insert_run(Connection& connection, const Mea
       "VALUES (?1, ?2, ?3, ?3, 'finished', ?4, ?5, ?6, ?7, ?8, '', 0, ?9, '') ON CONFLICT (uuid) DO NOTHING",
       kDoing);
   if (!insert) return Unexpected{insert.error()};
-  insert->bind(run.uuid, run.info.suite, run.started_utc, commit, *machine, *build, run.info.branch,
-               run.info.command_line, kNoTimeLimit);
+  insert->bind(run.uuid, run.info.suite, run.started_utc, keys->commit, keys->machine, keys->build,
+               run.info.branch, run.info.command_line, kNoTimeLimit);
   if (auto done = insert->run(); !done) return Unexpected{done.error()};
   if (connection.changes() == 0) return std::optional<std::int64_t>{};
   return std::optional<std::int64_t>{connection.last_insert_rowid()};

@@ -19,29 +19,6 @@ std::optional<std::string> null_if_empty(const std::string& text) {
   return text;
 }
 
-/// Keys of what all runs of a log share.
-struct OriginKeys {
-  std::optional<std::int64_t> commit;
-  std::int64_t machine = 0;
-  std::int64_t build = 0;
-};
-
-Result<OriginKeys> origin_keys(sqlite::Connection& connection, const PropertyOrigin& origin) {
-  OriginKeys keys;
-  if (origin.commit) {
-    const auto commit = commit_id(connection, *origin.commit);
-    if (!commit) return Unexpected{commit.error()};
-    keys.commit = *commit;
-  }
-  const auto machine = machine_id(connection, origin.machine);
-  if (!machine) return Unexpected{machine.error()};
-  keys.machine = *machine;
-  const auto build = build_id(connection, origin.build);
-  if (!build) return Unexpected{build.error()};
-  keys.build = *build;
-  return keys;
-}
-
 /// Values of one column that is a whole number or absent.
 std::optional<std::int64_t> optional_integer(const Statement& row, int column) {
   if (row.is_null(column)) return std::nullopt;
@@ -61,7 +38,7 @@ Result<PropertyRecorded> record_property_runs(Database& database, const Property
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = origin_keys(connection, origin);
+  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
   if (!keys) return Unexpected{keys.error()};
   auto insert_run = Statement::prepare(
       connection,

@@ -35,16 +35,8 @@ std::optional<std::string> null_if_empty(const std::string& text) {
 
 Result<Done> insert_run(Database& database, const RunInfo& info, const std::string& uuid) {
   auto& connection = database.connection();
-  std::optional<std::int64_t> commit;
-  if (info.commit) {
-    const auto id = commit_id(connection, *info.commit);
-    if (!id) return Unexpected{id.error()};
-    commit = *id;
-  }
-  const auto machine = machine_id(connection, info.machine);
-  if (!machine) return Unexpected{machine.error()};
-  const auto build = build_id(connection, info.build);
-  if (!build) return Unexpected{build.error()};
+  const auto keys = origin_keys(connection, info.commit, info.machine, info.build);
+  if (!keys) return Unexpected{keys.error()};
   auto insert = Statement::prepare(
       connection,
       "INSERT INTO run (uuid, suite, started_utc, status, commit_id, machine_id, build_id, branch, "
@@ -53,8 +45,9 @@ Result<Done> insert_run(Database& database, const RunInfo& info, const std::stri
       "writing the run");
   if (!insert) return Unexpected{insert.error()};
   return insert
-      ->bind(uuid, info.suite, utc_now(), commit, *machine, *build, info.branch, info.command_line,
-             info.options, to_bits(info.seed), info.time_limit_s, this_process(), info.shard)
+      ->bind(uuid, info.suite, utc_now(), keys->commit, keys->machine, keys->build, info.branch,
+             info.command_line, info.options, to_bits(info.seed), info.time_limit_s, this_process(),
+             info.shard)
       .run();
 }
 

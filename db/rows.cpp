@@ -72,6 +72,25 @@ Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& b
                 build.assertions, build.sanitizers, build.binary_hash, build.dirty);
 }
 
+Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
+                                              const std::optional<CommitInfo>& commit) {
+  if (!commit) return std::optional<std::int64_t>{};
+  const auto id = commit_id(connection, *commit);
+  if (!id) return Unexpected{id.error()};
+  return std::optional<std::int64_t>{*id};
+}
+
+Result<OriginKeys> origin_keys(sqlite::Connection& connection, const std::optional<CommitInfo>& commit,
+                               const MachineInfo& machine, const BuildInfo& build) {
+  const auto commit_key = commit_id(connection, commit);
+  if (!commit_key) return Unexpected{commit_key.error()};
+  const auto machine_key = machine_id(connection, machine);
+  if (!machine_key) return Unexpected{machine_key.error()};
+  const auto build_key = build_id(connection, build);
+  if (!build_key) return Unexpected{build_key.error()};
+  return OriginKeys{*commit_key, *machine_key, *build_key};
+}
+
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
   return upsert(
       connection,

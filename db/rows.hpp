@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "db/error.hpp"
@@ -22,7 +23,18 @@ std::int64_t to_bits(std::uint64_t value);
 Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit);
 Result<std::int64_t> machine_id(sqlite::Connection& connection, const MachineInfo& machine);
 Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& build);
+Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
+                                              const std::optional<CommitInfo>& commit);
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters);
+
+/// Where something that is recorded comes from.
+struct OriginKeys {
+  std::optional<std::int64_t> commit;  ///< none outside a checkout
+  std::int64_t machine = 0;
+  std::int64_t build = 0;
+};
+Result<OriginKeys> origin_keys(sqlite::Connection& connection, const std::optional<CommitInfo>& commit,
+                               const MachineInfo& machine, const BuildInfo& build);
 
 /// The same for instances, of which a case has hundreds: the statements are prepared
 /// once, and an instance that is known costs no write.

@@ -4,7 +4,6 @@
 // is checked, none that need not hold.
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/certify.hpp"
 #include "planner/validator/validator.hpp"
+#include "property_tests/support/steps_between.hpp"
 #include "property_tests/support/symmetry.hpp"
 
 namespace {
@@ -139,25 +139,6 @@ void check_budgets(const PlanCase& plan_case, const PlanResult& result) {
       Claim::kBudgetIsKept,
       limited.status == PlanStatus::kLimit && limited.statistics.expansions <= less.options.max_expansions,
       "half of the expansions are not a limit");
-}
-
-/// Moves between 4-neighbours from one cell to another, by breadth-first search.
-std::optional<int> steps_between(const GridMap& map, Cell from, Cell to) {
-  std::vector<int> steps(map.cell_count(), -1);
-  std::deque<Cell> queue{from};
-  steps[map.index(from)] = 0;
-  while (!queue.empty()) {
-    const Cell cell = queue.front();
-    queue.pop_front();
-    if (cell == to) return steps[map.index(cell)];
-    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
-      const Cell next{cell.x + step.x, cell.y + step.y};
-      if (!map.contains(next) || map.is_blocked(next) || steps[map.index(next)] >= 0) continue;
-      steps[map.index(next)] = steps[map.index(cell)] + 1;
-      queue.push_back(next);
-    }
-  }
-  return std::nullopt;
 }
 
 /// One robot, first to plan, and nothing that moves: all is known. Radius up to one half.

@@ -29,8 +29,6 @@
 namespace sipplab::cli {
 namespace {
 
-constexpr int kSignalExitBase = 128;  // as shells do
-
 struct BenchArguments {
   std::string suite = "density";
   std::vector<std::string> folders;

@@ -16,6 +16,9 @@ enum ExitCode : int {
   kInternalError = 70,
 };
 
+/// Stopped by signal n, a command ends with this plus n, as shells do.
+inline constexpr int kSignalExitBase = 128;
+
 /// Writes to stdout; what cannot be written is noticed by close_stdout().
 void print(std::string_view text);
 

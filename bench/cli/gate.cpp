@@ -26,7 +26,6 @@
 namespace sipplab::cli {
 namespace {
 
-constexpr int kSignalExitBase = 128;  // as shells do
 constexpr const char* kThisProgram = "/proc/self/exe";
 
 /// The instances of a comparison are the same always, so that its noise can be compared too.

@@ -5,25 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "db/aligned.hpp"
+
 namespace sipplab::bench {
 
 std::string terminal_table(const std::vector<TextRow>& rows, std::size_t left) {
   if (rows.empty()) return "";
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const TextRow& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const TextRow& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line +=
-          i < left ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
+  std::vector<bool> to_the_right(rows.front().size(), true);
+  std::fill_n(to_the_right.begin(), std::min(left, to_the_right.size()), false);
+  return db::align(rows.front(), {rows.begin() + 1, rows.end()}, to_the_right);
 }
 
 std::string markdown_table(const std::vector<TextRow>& rows, std::size_t left) {

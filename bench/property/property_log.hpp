@@ -13,8 +13,8 @@
 
 namespace sipplab::bench {
 
-/// The runs of a log; one that began and did not end has crashed, or is not over. Errors are one line: `name:line: what is wrong, what was
-/// expected`; a log without any run is one, too.
+/// The runs of a log; one that began and did not end has crashed, or is not over. Errors are one line:
+/// `name:line: what is wrong, what was expected`; a log without any run is one, too.
 Expected<std::vector<db::PropertyRun>, std::string> parse_property_log(std::string_view text,
                                                                        const std::string& name);
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "db/aligned.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -13,25 +15,6 @@ constexpr double kMillisecondsPerSecond = 1e3;
 
 std::string number(std::optional<double> value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
-
-/// Columns of a table as text; the first `left` of them aligned to the left.
-std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line +=
-          i < left ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
 }
 
 /// A column that describes the case; shown only where it tells cases apart, the
@@ -87,12 +70,13 @@ void RecordingReporter::Finalize() {
 std::string result_table(const std::vector<SweepEntry>& entries) {
   if (entries.empty()) return "";
   const std::vector<Parameter> parameters = shown_parameters(entries);
-  std::vector<std::vector<std::string>> rows(1);
-  for (const Parameter& parameter : parameters) rows[0].emplace_back(parameter.title);
+  std::vector<std::string> heading;
+  for (const Parameter& parameter : parameters) heading.emplace_back(parameter.title);
   for (const char* title :
        {"robots", "ssi", "solved", "limited", "success", "time [ms]", "makespan", "flowtime", "tries"}) {
-    rows[0].emplace_back(title);
+    heading.emplace_back(title);
   }
+  std::vector<std::vector<std::string>> rows;
   for (const SweepEntry& entry : entries) {
     if (!entry.finished) continue;
     const CaseOutcome& outcome = entry.outcome;
@@ -109,7 +93,9 @@ std::string result_table(const std::vector<SweepEntry>& entries) {
     row.push_back(number(outcome.mean_tries(), 2));
     rows.push_back(std::move(row));
   }
-  return aligned(rows, parameters.size());
+  std::vector<bool> to_the_right(heading.size(), true);
+  std::fill_n(to_the_right.begin(), parameters.size(), false);
+  return db::align(heading, rows, to_the_right);
 }
 
 std::string result_json(const std::vector<SweepEntry>& entries, const std::string& suite,

@@ -4,6 +4,7 @@
 #
 #   golden_cli.sh PATH_OF_SIPPLAB
 set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -12,37 +13,7 @@ install -m 755 "$1" "$work/sipplab"
 chmod 755 "$work"
 cd "$work" || exit 1
 sipplab=$work/sipplab
-# A sanitizer's finding must not look like a negative verdict.
-export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
-unset SIPPLAB_DB
 
-broken=0
-complain() {
-  printf 'BROKEN: %s\n' "$*"
-  broken=$((broken + 1))
-}
-
-# expect CODE ARGUMENTS...: runs sipplab into the files out and err.
-expect() {
-  local code=$1 got=0
-  shift
-  "$sipplab" "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err))"
-}
-
-# refused PATTERN ARGUMENTS...: exit code 2, one line on stderr that holds PATTERN,
-# nothing on stdout.
-refused() {
-  local pattern=$1
-  shift
-  expect 2 "$@"
-  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $* ($(head -c 300 err))"
-  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
-  [ ! -s out ] || complain "something on stdout: sipplab $*"
-}
-
-says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 300 "${2:-out}")"; }
-equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
 ask() { sqlite3 history.db "$1"; }
 
 # --- what a user does -------------------------------------------------------------

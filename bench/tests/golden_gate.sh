@@ -1,41 +1,17 @@
 #!/usr/bin/env bash
 # The gate and the comparison of runs, as users meet them. $1: sipplab.
 set -u
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 install -m 755 "$1" "$work/sipplab"
 cd "$work" || exit 1
 sipplab=$work/sipplab
-export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
 export TMPDIR=$work/temporary
 mkdir "$TMPDIR"
-unset SIPPLAB_DB SIPPLAB_INJECT_SLOWDOWN SIPPLAB_INJECT_CHANGE
+unset SIPPLAB_INJECT_SLOWDOWN SIPPLAB_INJECT_CHANGE
 
-broken=0
-complain() {
-  printf 'BROKEN: %s\n' "$*"
-  broken=$((broken + 1))
-}
-
-expect() {
-  local code=$1 got=0
-  shift
-  "$sipplab" "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err) $(tail -n 1 out))"
-}
-
-refused() {
-  local pattern=$1
-  shift
-  expect 2 "$@"
-  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $*"
-  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
-  [ ! -s out ] || complain "something on stdout: sipplab $*"
-}
-
-says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 500 "${2:-out}")"; }
 ask() { sqlite3 gate.db "$1"; }
-equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
 
 # --- gate -------------------------------------------------------------------------
 

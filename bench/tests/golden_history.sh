@@ -4,6 +4,7 @@
 #
 #   golden_history.sh PATH_OF_SIPPLAB PATH_OF_README
 set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 
 readme=$(realpath "$2")
 work=$(mktemp -d)
@@ -12,30 +13,6 @@ mkdir -p "$work/build/release"
 ln -s "$(realpath "$1")" "$work/build/release/sipplab"
 cd "$work" || exit 1
 sipplab=$work/build/release/sipplab
-export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
-unset SIPPLAB_DB
-
-broken=0
-complain() {
-  printf 'BROKEN: %s\n' "$*"
-  broken=$((broken + 1))
-}
-expect() { # CODE ARGUMENTS...: runs sipplab into the files out and err
-  local code=$1 got=0
-  shift
-  "$sipplab" "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: sipplab $* ($(head -c 300 err))"
-}
-refused() { # PATTERN ARGUMENTS...: code 2, one line on stderr, nothing on stdout
-  local pattern=$1
-  shift
-  expect 2 "$@"
-  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $*"
-  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
-  [ ! -s out ] || complain "something on stdout: sipplab $*"
-}
-says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 400 "${2:-out}")"; }
-equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
 ask() { sqlite3 "${2:-sipplab.db}" "$1"; }
 bench() { expect 0 bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 "$@"; }
 

@@ -120,7 +120,7 @@ void read_summary(XmlReader& reader, xml_node summary, SolutionDocument& documen
     reader.fail(summary, "status " + in_quotes(document.status), "solved, failed or limit");
   }
   document.valid = std::string_view(summary.attribute("valid").value()) == "true";
-  document.plan_hash = summary.attribute("planhash").value();
+  document.plan_hash = reader.words(summary, "planhash");
   if (const auto seed = summary.attribute("seed"); seed && document.options) {
     document.options->seed = seed.as_ullong();
   }

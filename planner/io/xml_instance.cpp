@@ -24,10 +24,7 @@ constexpr NumberRange kHeadings{0, 360, "degrees from 0 to 360"};
 double wrapped(double heading_deg) { return heading_deg == 360 ? 0 : heading_deg; }
 
 std::string id_of(XmlReader& reader, xml_node node, std::size_t position) {
-  const pugi::xml_attribute id = node.attribute("id");
-  if (!id) return std::to_string(position);
-  if (!is_valid_utf8(id.value())) reader.fail(node, std::string("id ") + in_quotes(id.value()), "UTF-8 text");
-  return id.value();
+  return node.attribute("id") ? reader.words(node, "id") : std::to_string(position);
 }
 
 /// Overwrites what the element states of sizes, speeds and headings; the same for

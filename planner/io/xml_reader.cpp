@@ -194,6 +194,15 @@ double XmlReader::real_text(pugi::xml_node node, const NumberRange& range) {
   return *number;
 }
 
+std::string XmlReader::words(pugi::xml_node node, const char* attribute) {
+  const std::string_view text = node.attribute(attribute).value();
+  if (!is_valid_utf8(text)) {
+    fail(node, shown(node, attribute, text), "UTF-8 text");
+    return "";
+  }
+  return std::string(text);
+}
+
 bool XmlReader::boolean_text(pugi::xml_node node) {
   const std::string text = text_of(node);
   const std::string_view word = trimmed(text);

@@ -66,6 +66,9 @@ class XmlReader {
   /// The element's own text as a number.
   std::int32_t integer_text(pugi::xml_node node);
   double real_text(pugi::xml_node node, const NumberRange& range);
+  /// An attribute that is words, kept as they are; empty where there is none. What is no UTF-8 is
+  /// an error: JSON could not write it.
+  std::string words(pugi::xml_node node, const char* attribute);
   /// "true", "1", "false" or "0".
   bool boolean_text(pugi::xml_node node);
 

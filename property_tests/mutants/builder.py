@@ -1,7 +1,6 @@
 """A copy of the sources that is built with assertions, where bugs can be planted."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -33,12 +32,6 @@ class Builder:
     def program(self, name):
         folder = "db/tests" if name == "db_tests" else "property_tests"
         return self.build / folder / name
-
-    def property_parameters(self, cases):
-        """Those of ctest, but for the number of cases where one is given."""
-        text = (self.source / "property_tests/CMakeLists.txt").read_text()
-        parameters = re.search(r'SIPPLAB_PROPERTY_PARAMS "([^"]+)"', text).group(1)
-        return re.sub(r"max_success=\d+", f"max_success={cases}", parameters) if cases else parameters
 
     @contextmanager
     def planted(self, mutant):

@@ -90,10 +90,12 @@ class Tally : public rc::detail::TestListenerAdapter {
   std::optional<PlanCase> failing_case_;
 };
 
-/// RC_PARAMS, and the project's own values for what it leaves open.
-const rc::detail::Configuration& configured() {
-  static const rc::detail::Configuration configuration = [] {
-    const auto defaults = rc::detail::configFromString(SIPPLAB_PROPERTY_PARAMS);
+/// RC_PARAMS, and the project's own values for what it leaves open. All properties of a
+/// program try as many cases.
+const rc::detail::Configuration& configured(int cases) {
+  static const rc::detail::Configuration configuration = [&] {
+    auto defaults = rc::detail::configFromString(SIPPLAB_PROPERTY_PARAMS);
+    defaults.testParams.maxSuccess = cases;
     const char* params = std::getenv("RC_PARAMS");
     try {
       return rc::detail::configFromString(params == nullptr ? "" : params, defaults);
@@ -186,8 +188,9 @@ bool reproduce_failure(const rc::detail::Property& property, const Reproduce& re
 
 void note_case(const PlanCase& plan_case) { noted_case = plan_case; }
 
-bool run_property(const std::string& room, const std::string& title, const rc::detail::Property& property) {
-  const rc::detail::Configuration& configuration = configured();
+bool run_property(const std::string& room, int cases, const std::string& title,
+                  const rc::detail::Property& property) {
+  const rc::detail::Configuration& configuration = configured(cases);
   const auto reproduce = configuration.reproduce.find(title);
   if (!configuration.reproduce.empty() && reproduce == configuration.reproduce.end()) return true;
   std::cerr << "\n- " << title << '\n';

@@ -12,12 +12,15 @@
 // Set for each program by property_tests/CMakeLists.txt.
 #ifndef SIPPLAB_PROPERTY_ROOM
 #define SIPPLAB_PROPERTY_ROOM ""
+#define SIPPLAB_PROPERTY_CASES 1000
 #endif
 
 namespace sipplab {
 
 /// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
-bool run_property(const std::string& room, const std::string& title, const rc::detail::Property& property);
+/// `cases` are tried where RC_PARAMS names no number.
+bool run_property(const std::string& room, int cases, const std::string& title,
+                  const rc::detail::Property& property);
 
 /// Checks a property with the parameters of RC_PARAMS and prints how it went: cases,
 /// the share of each class, and for a failure the smallest counterexample with the
@@ -30,7 +33,8 @@ bool run_property(const std::string& room, const std::string& title, const rc::d
 /// nothing is drawn or logged, and properties that it does not name hold.
 template <class Testable>
 bool property(const std::string& title, Testable&& testable) {
-  return run_property(SIPPLAB_PROPERTY_ROOM, title, rc::detail::toProperty(std::forward<Testable>(testable)));
+  return run_property(SIPPLAB_PROPERTY_ROOM, SIPPLAB_PROPERTY_CASES, title,
+                      rc::detail::toProperty(std::forward<Testable>(testable)));
 }
 
 /// Says which case this property plans, where that is not the case that it drew: the

@@ -256,6 +256,8 @@ TEST(IoSolution, BadXmlAndCsvNameTheLine) {
             "s:3: no <path> in <agent>, expected one");
   EXPECT_EQ(error_of("<root>\n<log>\n</log></root>", instance),
             "s:2: no <agent> for robot '0', expected one for each robot of the instance");
+  EXPECT_EQ(error_of("<root>\n<log>\n<summary planhash=\"54\xc3\"/></log></root>", instance),
+            "s:3: planhash '54?' in <summary>, expected UTF-8 text");
   EXPECT_EQ(error_of("<root>\n<log><order>0 9</order></log></root>", instance),
             "s:2: '9' in <order>, expected the position of a robot, counted from 0");
   const std::string header = "agent,id,t0,t1,x0,y0,x1,y1\n";

@@ -82,7 +82,8 @@ TEST(IoXmlInstance, BadAgentsNameTheirLine) {
             "f:3: start.heading '400' in <agent>, expected degrees from 0 to 360");
   EXPECT_EQ(agent_error("<agent " + places + " goal.heading=\"north\"/>"),
             "f:3: goal.heading 'north' in <agent>, expected degrees from 0 to 360");
-  EXPECT_EQ(agent_error("<agent " + places + " id=\"\xff\"/>"), "f:3: id '?', expected UTF-8 text");
+  EXPECT_EQ(agent_error("<agent " + places + " id=\"\xff\"/>"),
+            "f:3: id '?' in <agent>, expected UTF-8 text");
   EXPECT_EQ(agent_error("<defaultparameters size=\"NaN\"/>"),
             "f:3: size 'NaN' in <defaultparameters>, expected a radius in cells, more than 0 and at most 64");
 }

@@ -1,0 +1,42 @@
+# What the golden tests of the command line share; sourced by them once `sipplab` holds the
+# program and the working folder is a scratch folder of the test.
+
+# A sanitizer's finding must not look like a negative verdict.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
+unset SIPPLAB_DB
+
+broken=0
+complain() {
+  printf 'BROKEN: %s\n' "$*"
+  broken=$((broken + 1))
+}
+
+# runs CODE COMMAND...: its output goes into the files out and err.
+runs() {
+  local code=$1 got=0
+  shift
+  "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || complain "exit code $got, not $code: $* ($(head -c 300 err) $(tail -n 1 out | head -c 300))"
+}
+
+# expect CODE ARGUMENTS...: the same for sipplab.
+expect() {
+  local code=$1
+  shift
+  runs "$code" "$sipplab" "$@"
+}
+
+# refused PATTERN ARGUMENTS...: exit code 2, one line on stderr that holds PATTERN,
+# nothing on stdout.
+refused() {
+  local pattern=$1
+  shift
+  expect 2 "$@"
+  [ "$(wc -l <err)" -eq 1 ] || complain "$(wc -l <err) lines on stderr, not 1: sipplab $* ($(head -c 300 err))"
+  grep -qE -- "$pattern" err || complain "no '$pattern' in: $(head -c 300 err)"
+  [ ! -s out ] || complain "something on stdout: sipplab $*"
+}
+
+# says PATTERN [FILE], equal GOT WANTED WHAT
+says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 500 "${2:-out}")"; }
+equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
