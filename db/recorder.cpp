@@ -11,6 +11,7 @@
 #include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
+#include "db/summaries.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -206,14 +207,11 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
   if (auto done = insert->run(); !done) return done;
   const std::int64_t cell_id = connection.last_insert_rowid();
   if (auto done = write_results(cell_id, results); !done) return done;
-  if (!summariser_) {
-    auto summariser = CellSummariser::prepare(connection);
-    if (!summariser) return Unexpected{summariser.error()};
-    summariser_.emplace(std::move(*summariser));
-  }
+  auto summariser = CellSummariser::prepare(connection);
+  if (!summariser) return Unexpected{summariser.error()};
   std::vector<const ResultRow*> rows;
   for (const BufferedResult& result : results) rows.push_back(&result.row);
-  if (auto done = summariser_->summarise(cell_id, medians_of(rows)); !done) return done;
+  if (auto done = summariser->summarise(cell_id, medians_of(rows)); !done) return done;
   return transaction->commit();
 }
 

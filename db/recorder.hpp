@@ -12,7 +12,6 @@
 #include "db/database.hpp"
 #include "db/error.hpp"
 #include "db/records.hpp"
-#include "db/summaries.hpp"
 
 namespace sipplab::db {
 
@@ -87,7 +86,6 @@ class RunRecorder {
   Database database_;
   std::string run_uuid_;
   std::int64_t run_id_ = 0;
-  std::optional<CellSummariser> summariser_;  ///< from the first case on
   std::vector<CaseInfo> finished_;
   std::vector<BufferedCase> buffered_;
 };

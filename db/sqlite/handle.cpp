@@ -20,6 +20,10 @@ constexpr int kShortestWaitUs = 500;
 constexpr int kLongestWaitUs = 20'000;
 constexpr int kDoublings = 6;
 
+// More than recording, the most frequent use, has; a program that asks many questions
+// once must not keep them all.
+constexpr std::size_t kMostIdleStatements = 64;
+
 bool disk_is_full(const Handle& handle, int code) {
   if ((code & 0xff) == SQLITE_FULL) return true;
   if ((code & 0xff) != SQLITE_IOERR || handle.db == nullptr) return false;
@@ -34,6 +38,29 @@ std::string one_line(std::string text) {
 }
 
 }  // namespace
+
+IdleStatements::~IdleStatements() {
+  for (const auto& [text, statement] : by_text_) sqlite3_finalize(statement);
+}
+
+sqlite3_stmt* IdleStatements::take(std::string_view sql) {
+  const auto found = by_text_.find(std::string{sql});
+  if (found == by_text_.end()) return nullptr;
+  sqlite3_stmt* statement = found->second;
+  by_text_.erase(found);
+  return statement;
+}
+
+void IdleStatements::give_back(sqlite3_stmt* statement) {
+  if (statement == nullptr) return;
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  const char* text = sqlite3_sql(statement);
+  if (text == nullptr || by_text_.size() >= kMostIdleStatements ||
+      !by_text_.emplace(text, statement).second) {
+    sqlite3_finalize(statement);
+  }
+}
 
 int wait_for_lock(void* handle, int attempts) {
   auto* waiting = static_cast<Handle*>(handle);

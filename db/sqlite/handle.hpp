@@ -7,20 +7,41 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "db/error.hpp"
 
 namespace sipplab::db::sqlite {
 
+/// Statements that nobody uses at the moment, kept because compiling one takes longer than
+/// running it. They are reset, so they hold no lock; SQLite compiles one again by itself
+/// when the schema changed.
+class IdleStatements {
+ public:
+  IdleStatements() = default;
+  IdleStatements(const IdleStatements&) = delete;
+  IdleStatements& operator=(const IdleStatements&) = delete;
+  ~IdleStatements();
+
+  /// One of this very text for the caller to own, or null.
+  sqlite3_stmt* take(std::string_view sql);
+  /// Takes it over: kept while there is room, else finalized.
+  void give_back(sqlite3_stmt* statement);
+
+ private:
+  std::unordered_map<std::string, sqlite3_stmt*> by_text_;
+};
+
 struct Handle {
   explicit Handle(std::string file_name) : name(std::move(file_name)) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  ~Handle() { sqlite3_close_v2(db); }
+  ~Handle() { sqlite3_close_v2(db); }  // closes when the last statement is gone
 
   sqlite3* db = nullptr;
   std::string name;
   std::chrono::steady_clock::time_point wait_began{};
+  IdleStatements idle;
 };
 
 /// SQLite's busy handler (context: a Handle): sleeps for a random time that grows

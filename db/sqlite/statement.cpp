@@ -7,17 +7,19 @@
 
 namespace sipplab::db::sqlite {
 
-void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+void Statement::GiveBack::operator()(sqlite3_stmt* statement) const { handle->idle.give_back(statement); }
 
 Statement::Statement(Handle* handle, sqlite3_stmt* statement, std::string doing)
-    : handle_(handle), statement_(statement), doing_(std::move(doing)) {}
+    : handle_(handle), statement_(statement, GiveBack{handle}), doing_(std::move(doing)) {}
 
 Result<Statement> Statement::prepare(Connection& connection, std::string_view sql, std::string_view doing) {
   Handle& handle = connection.handle();
-  sqlite3_stmt* statement = nullptr;
+  sqlite3_stmt* statement = handle.idle.take(sql);
+  if (statement != nullptr) return Statement{&handle, statement, std::string{doing}};
   // Preparing reads the schema, and so may meet a lock.
   const int code = retry_while_busy(handle, [&] {
-    return sqlite3_prepare_v2(handle.db, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+    return sqlite3_prepare_v3(handle.db, sql.data(), static_cast<int>(sql.size()), SQLITE_PREPARE_PERSISTENT,
+                              &statement, nullptr);
   });
   if (code != SQLITE_OK) return Unexpected{describe(handle, code, doing)};
   return Statement{&handle, statement, std::string{doing}};

@@ -1,4 +1,4 @@
-// A prepared statement that is finalized when it goes out of scope.
+// A prepared statement that goes back to its connection when it goes out of scope.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,8 @@ class Statement {
   sqlite3_stmt* raw() const { return statement_.get(); }
 
  private:
-  struct Finalize {
+  struct GiveBack {
+    Handle* handle;
     void operator()(sqlite3_stmt* statement) const;
   };
   Statement(Handle* handle, sqlite3_stmt* statement, std::string doing);
@@ -70,7 +71,7 @@ class Statement {
   }
 
   Handle* handle_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::unique_ptr<sqlite3_stmt, GiveBack> statement_;
   std::string doing_;
 };
 

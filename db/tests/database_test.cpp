@@ -1,10 +1,13 @@
 // Opening: fresh files, old files, files that are something else.
 #include "db/database.hpp"
 
+#include <sqlite3.h>
+
 #include <cstdlib>
 #include <fstream>
 
 #include "db/migrate.hpp"
+#include "db/sqlite/statement.hpp"
 #include "db/tests/support.hpp"
 
 namespace sipplab::db {
@@ -125,6 +128,51 @@ TEST_F(OpenDatabase, foreign_keys_are_enforced) {
       "writing an orphan");
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message.find("FOREIGN KEY"), std::string::npos);
+}
+
+class Statements : public OpenDatabase {
+ protected:
+  sqlite::Statement prepare(Database& database, const std::string& sql) {
+    return test::must(sqlite::Statement::prepare(database.connection(), sql, "testing"));
+  }
+};
+
+TEST_F(Statements, one_that_was_used_before_is_used_again_and_remembers_nothing) {
+  Database database = test::must(Database::open(file));
+  sqlite3_stmt* first = nullptr;
+  {
+    auto statement = prepare(database, "SELECT ?1 UNION ALL SELECT 2");
+    first = statement.raw();
+    EXPECT_TRUE(test::must(statement.bind(1).step()));  // in the middle of its rows
+  }
+  auto statement = prepare(database, "SELECT ?1 UNION ALL SELECT 2");
+  EXPECT_EQ(statement.raw(), first);
+  EXPECT_TRUE(test::must(statement.step()));
+  EXPECT_TRUE(statement.is_null(0)) << "a value of its last use";
+  EXPECT_NE(prepare(database, "SELECT ?1 UNION ALL SELECT 2").raw(), first) << "that one is in use";
+}
+
+TEST_F(Statements, one_that_waits_holds_no_lock_and_follows_the_schema) {
+  Database database = test::must(Database::open(file));
+  const char* all = "SELECT * FROM run";
+  const int columns = sqlite3_column_count(prepare(database, all).raw());
+  Database other = test::must(Database::open(file));
+  test::must(other.connection().execute("ALTER TABLE run ADD COLUMN mood TEXT", "testing"));
+  auto statement = prepare(database, all);
+  test::must(statement.step());
+  EXPECT_EQ(sqlite3_column_count(statement.raw()), columns + 1);
+}
+
+TEST_F(Statements, few_of_many_different_ones_wait) {
+  Database database = test::must(Database::open(file));
+  for (int number = 0; number < 1000; ++number) prepare(database, "SELECT " + std::to_string(number));
+  int waiting = 0;
+  for (sqlite3_stmt* each = nullptr;
+       (each = sqlite3_next_stmt(database.connection().raw(), each)) != nullptr;) {
+    ++waiting;
+  }
+  EXPECT_GT(waiting, 10);
+  EXPECT_LE(waiting, 64);
 }
 
 TEST(DatabasePath, option_before_environment_before_working_directory) {
