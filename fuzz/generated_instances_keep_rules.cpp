@@ -50,7 +50,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const GeneratorOptions options = read_options(words);
   if (spec->kind == MapSpec::Kind::kFile) return -1;
-  if (options.radius_cells < kMinRadiusCells) return -1;
   if (std::int64_t{spec->width} * spec->height > kMostCells || options.agents > kMostAgents) return -1;
   const auto instance = generate_instance(*spec, options);
   if (!instance) {

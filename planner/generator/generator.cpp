@@ -107,8 +107,8 @@ std::string too_many(std::size_t wanted, std::size_t placed, double radius_cells
 }  // namespace
 
 Expected<Instance, std::string> generate_instance(const GridMap& map, const GeneratorOptions& options) {
-  if (!(options.radius_cells > 0 && options.radius_cells <= kMaxRadiusCells)) {
-    return Unexpected{std::string("radius out of range, expected more than 0 and at most 64 cells")};
+  if (!(options.radius_cells >= kMinRadiusCells && options.radius_cells <= kMaxRadiusCells)) {
+    return Unexpected{std::string("radius out of range, expected 0.001 to 64 cells")};
   }
   if (!(options.speed_cells_per_s >= kMinSpeedCellsPerS && options.speed_cells_per_s <= kMaxSpeedCellsPerS)) {
     return Unexpected{std::string("speed out of range, expected 0.001 to 1000 cells per second")};

@@ -13,7 +13,7 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr NumberRange kRadii{0, kMaxRadiusCells, "a radius in cells, more than 0 and at most 64", false};
+constexpr NumberRange kRadii{kMinRadiusCells, kMaxRadiusCells, "a radius in cells, 0.001 to 64"};
 constexpr NumberRange kSpeeds{kMinSpeedCellsPerS, kMaxSpeedCellsPerS,
                               "a speed in cells per second, 0.001 to 1000"};
 constexpr NumberRange kRotationSpeeds{0, kMaxSpeedCellsPerS,

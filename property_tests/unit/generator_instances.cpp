@@ -104,9 +104,11 @@ TEST(GeneratorInstances, TooManyRobotsAreOneLine) {
   EXPECT_EQ(generate_instance(spec_of("empty:5x5"), options).error(),
             "2 robots of radius 2 do not fit on the map: starts were found for 1, expected fewer robots or a "
             "larger map");
-  options.radius_cells = -1;
-  EXPECT_EQ(generate_instance(spec_of("empty:5x4"), options).error(),
-            "radius out of range, expected more than 0 and at most 64 cells");
+  for (const double radius_cells : {-1.0, 0.0009, 64.1}) {
+    options.radius_cells = radius_cells;
+    EXPECT_EQ(generate_instance(spec_of("empty:5x4"), options).error(),
+              "radius out of range, expected 0.001 to 64 cells");
+  }
 }
 
 TEST(GeneratorInstances, SeedAndIndexDecideAlone) {

@@ -71,7 +71,7 @@ TEST(IoXmlInstance, BadAgentsNameTheirLine) {
   for (const char* size : {"-1", "0", "nan", "inf", "65", "", "0.5x"}) {
     EXPECT_EQ(agent_error("<agent " + places + " size=\"" + size + "\"/>"),
               "f:3: size '" + std::string(size) +
-                  "' in <agent>, expected a radius in cells, more than 0 and at most 64");
+                  "' in <agent>, expected a radius in cells, 0.001 to 64");
   }
   EXPECT_EQ(agent_error("<agent " + places + " movespeed=\"0\"/>"),
             "f:3: movespeed '0' in <agent>, expected a speed in cells per second, 0.001 to 1000");
@@ -85,7 +85,7 @@ TEST(IoXmlInstance, BadAgentsNameTheirLine) {
   EXPECT_EQ(agent_error("<agent " + places + " id=\"\xff\"/>"),
             "f:3: id '?' in <agent>, expected UTF-8 text");
   EXPECT_EQ(agent_error("<defaultparameters size=\"NaN\"/>"),
-            "f:3: size 'NaN' in <defaultparameters>, expected a radius in cells, more than 0 and at most 64");
+            "f:3: size 'NaN' in <defaultparameters>, expected a radius in cells, 0.001 to 64");
 }
 
 TEST(IoXmlInstance, HeadingsWrapAndMayBeOpen) {
