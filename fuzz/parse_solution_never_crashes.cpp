@@ -1,4 +1,4 @@
-// Claim: no bytes, taken as a solution in XML, JSON or CSV, make the reader crash or take
+// Claim: no bytes, taken as a solution in XML, JSON, CSV or plain lines, make the reader crash or take
 // memory that they are not due; a refusal is one line, and a solution that is accepted reads
 // back equal from each format. What is accepted, the validator judges without a crash.
 #include <string>

@@ -14,6 +14,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/external/command_planner.hpp"
 #include "bench/suites.hpp"
 #include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/expand.hpp"
@@ -45,12 +46,26 @@ struct BenchArguments {
   std::optional<std::uint64_t> max_restarts;
   std::uint64_t seed = 1;
   std::int64_t repetitions = 1;
+  std::optional<std::string> planner;
+  std::string planner_name;
+  std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
+  std::optional<std::string> rounding;
   std::optional<std::string> shard;
   bool resume = false;
   std::optional<std::string> database;
   bool json = false;
   Invocation invocation;
 };
+
+/// The program that plans instead, where the user names one.
+std::optional<bench::CommandPlannerSpec> command_of(const BenchArguments& arguments) {
+  if (!arguments.planner) return std::nullopt;
+  auto spec = bench::parse_command_planner(*arguments.planner, arguments.planner_name);
+  if (!spec) return std::nullopt;  // checked when the command line was read
+  spec->memory_limit_mib = arguments.memory_limit_mib;
+  if (arguments.rounding) spec->rounding = parse_real(*arguments.rounding).value_or(bench::kDefaultRounding);
+  return *spec;
+}
 
 bench::SweepRequest request_of(const BenchArguments& arguments) {
   bench::SweepRequest request;
@@ -72,6 +87,7 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   request.max_expansions = arguments.max_expansions;
   request.max_restarts = arguments.max_restarts;
   request.seed = arguments.seed;
+  if (const auto command = command_of(arguments)) request.command = command->name;
   return request;
 }
 
@@ -110,6 +126,11 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
       "seed={} repetitions={} time_limit={} max_expansions={} max_restarts={} cases={}:{}", arguments.seed,
       arguments.repetitions, format_ssi(options.time_limit_s), options.max_expansions, options.max_restarts,
       sweep.cases.size(), bench::text_digest(cases));
+  if (const auto command = command_of(arguments)) {
+    info.options +=
+        fmt::format(" planner={} memory_limit={} rounding={}", bench::text_digest(command->command),
+                    command->memory_limit_mib, command->rounding);
+  }
   info.seed = arguments.seed;
   const bench::SourceInfo source = bench::source_info();
   info.commit = source.commit;
@@ -192,8 +213,14 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   const std::string reason = bench::unfit_for_timing();
   if (!reason.empty()) diagnose("WARNING: " + reason + " in this build: its times are not worth comparing");
 
+  std::optional<bench::CommandPlanner> command;
+  if (const auto spec = command_of(arguments)) {
+    auto made = bench::CommandPlanner::make(*spec);
+    if (!made) return fail(kBadUsage, "sipplab: " + made.error());
+    command = std::move(*made);
+  }
   bench::Sweep sweep(std::move(cases), bench::Recording(std::move(*database), info, resumption.run),
-                     arguments.repetitions, stderr_is_terminal());
+                     arguments.repetitions, stderr_is_terminal(), std::move(command));
   sweep.register_benchmarks(flags.format == "csv");
   if (sweep.entries().empty()) {
     sweep.begin();
@@ -291,6 +318,32 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->check(check_time_limit);
   command.add_option("--max-expansions", arguments.max_expansions, "nodes expanded per instance");
   command.add_option("--max-restarts", arguments.max_restarts, "tries after the first");
+  CLI::Option* planner = command
+                             .add_option("--planner", arguments.planner,
+                                         "another program plans: 'cmd:PROGRAM {task} {map} {config} {out}'")
+                             ->check([](const std::string& text) {
+                               const auto spec = bench::parse_command_planner(text, "");
+                               return spec ? std::string() : spec.error();
+                             })
+                             ->type_name("CMD");
+  command
+      .add_option("--planner-name", arguments.planner_name,
+                  "its name in the history instead of its program's")
+      ->needs(planner)
+      ->type_name("NAME");
+  command.add_option("--memory-limit", arguments.memory_limit_mib, "MiB for each process of that program")
+      ->needs(planner)
+      ->check(CLI::Range(std::uint64_t{16}, std::uint64_t{1} << 30))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--rounding", arguments.rounding,
+          fmt::format("cells of overlap, and seconds of a duration, that are the rounding of its files; "
+                      "default {}",
+                      bench::kDefaultRounding))
+      ->needs(planner)
+      ->check(check_positive_real)
+      ->type_name("X");
   command.add_option("--seed", arguments.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();

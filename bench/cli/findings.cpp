@@ -13,6 +13,7 @@
 #include "bench/cli/history.hpp"
 #include "bench/fuzz/campaign.hpp"
 #include "bench/fuzz/target_program.hpp"
+#include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
 #include "db/identity.hpp"
 #include "planner/io/text_file.hpp"
@@ -158,12 +159,12 @@ int run_replay(const FindingsArguments& arguments) {
     if (!all) return fail(all.error());
     findings = *all;
   }
-  std::string scratch = (fs::temp_directory_path() / "sipplab-XXXXXX").string();
-  if (mkdtemp(scratch.data()) == nullptr) return fail(kBadUsage, scratch + ": cannot be made");
+  const auto scratch = bench::TemporaryFolder::make();
+  if (!scratch) return fail(kBadUsage, scratch.error());
   db::Table table{{"id", "state", "target", "replay"}, {}};
   int code = kSuccess;
   for (const db::StoredFinding& stored : findings) {
-    const auto replayed = replay_one(*database, stored, programs_of(arguments), scratch);
+    const auto replayed = replay_one(*database, stored, programs_of(arguments), scratch->path());
     if (!replayed) return fail(replayed.error());
     table.rows.push_back({stored.id, replayed->stored.state, stored.finding.target, replayed->verdict});
     if (replayed->verdict.rfind("not run", 0) == 0) {
@@ -172,8 +173,6 @@ int run_replay(const FindingsArguments& arguments) {
       code = kNegativeVerdict;
     }
   }
-  std::error_code ignored;
-  fs::remove_all(scratch, ignored);
   print(db::format(table, arguments.history.output_format()));
   return code;
 }

@@ -145,7 +145,7 @@ Command add_validate_command(CLI::App& program) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = program.add_subcommand("validate", "check a solution; exit code 1 where it is invalid");
   arguments->instance.add_to(*command);
-  command->add_option("--solution", arguments->solution, "solution (XML, JSON or CSV)")
+  command->add_option("--solution", arguments->solution, "solution (XML, JSON, CSV or plain lines)")
       ->required()
       ->type_name("FILE");
   command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default as the solution says")

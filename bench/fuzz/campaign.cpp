@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "bench/fuzz/engine_log.hpp"
-#include "bench/fuzz/program.hpp"
 #include "bench/fuzz/target_program.hpp"
+#include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"
 #include "fuzz/support/claims.hpp"
@@ -130,8 +130,9 @@ class TargetRun {
     run_.started_utc = db::utc_now();
     const Clock::time_point begin = Clock::now();
     const ProgramRun engine =
-        run_program(command(), {std::string(fuzz::kCountsVariable) + "=" + counts().string()}, log(),
-                    run_.budget_s ? *run_.budget_s + kGraceS : kLongestS);
+        run_program(command(), {.environment = {std::string(fuzz::kCountsVariable) + "=" + counts().string()},
+                                .log = log(),
+                                .limit_s = run_.budget_s ? *run_.budget_s + kGraceS : kLongestS});
     run_.wall_time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
     run_.cpu_time_ns = static_cast<std::int64_t>(engine.cpu_time_s * 1e9);
     ended_well_ = engine.started && !engine.timed_out && engine.exit_code == 0;
@@ -147,7 +148,7 @@ class TargetRun {
         {program_.fuzzer().string(), "-set_cover_merge=1", fmt::format("-max_len={}", kMaxInputBytes),
          fmt::format("-timeout={}", kInputTimeoutS), minimal.string(), corpus().string(),
          (options_.sources / "corpus" / run_.target).string()},
-        {}, folder_ / "merge.log", kGraceS);
+        {.log = folder_ / "merge.log", .limit_s = kGraceS});
     if (!merge.started || merge.exit_code != 0 || files_in(minimal).empty()) return;
     fs::remove_all(corpus(), error);
     fs::rename(minimal, corpus(), error);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/fuzz/program.hpp"
+#include "bench/program.hpp"
 #include "bench/property/replay.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
@@ -68,8 +68,8 @@ TargetProgram::TargetProgram(fs::path programs, std::string target, fs::path scr
 InputVerdict TargetProgram::judge(const std::string& input) const {
   const fs::path file = scratch_ / "judged";
   if (write_file(file.string(), input)) return {};
-  const ProgramRun run =
-      run_program({replayer().string(), "--judge", file.string()}, {}, scratch_ / "judge.log", kJudgeLimitS);
+  const ProgramRun run = run_program({replayer().string(), "--judge", file.string()},
+                                     {.log = scratch_ / "judge.log", .limit_s = kJudgeLimitS});
   InputVerdict verdict;
   if (!run.started || run.timed_out) return verdict;
   if (run.exit_code == 0) verdict.verdict = Verdict::kHolds;
@@ -88,8 +88,8 @@ std::string TargetProgram::reduce(const std::string& input) const {
   std::error_code ignored;
   fs::remove(smaller, ignored);
   if (write_file(file.string(), input)) return input;
-  const ProgramRun run = run_program({replayer().string(), "--reduce", file.string(), smaller.string()}, {},
-                                     scratch_ / "reduce.log", kReduceLimitS);
+  const ProgramRun run = run_program({replayer().string(), "--reduce", file.string(), smaller.string()},
+                                     {.log = scratch_ / "reduce.log", .limit_s = kReduceLimitS});
   return run.started && run.exit_code == 0 ? text_of(smaller) : input;
 }
 

@@ -1,12 +1,10 @@
 #include "bench/gate/gate_cases.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <system_error>
 #include <utility>
 
 #include "bench/compare/case_words.hpp"
@@ -29,29 +27,13 @@ bool write_file(const std::string& path, const std::string& text) {
 
 Expected<GateCases, std::string> GateCases::make(const std::string& suite, std::uint64_t seed,
                                                  bool timed_only) {
-  GateCases cases;
-  std::string pattern = (std::filesystem::temp_directory_path() / "sipplab-gate-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) {
-    return Unexpected{std::filesystem::temp_directory_path().string() +
-                      ": no folder can be made in it, expected a place for temporary files"};
-  }
-  cases.folder_ = pattern;
+  Expected<TemporaryFolder, std::string> folder = TemporaryFolder::make();
+  if (!folder) return Unexpected{folder.error()};
+  GateCases cases(std::move(*folder));
   std::string error = cases.add_suite(suite, seed, true);
   if (error.empty() && !timed_only && suite != kExactSuite) error = cases.add_suite(kExactSuite, seed, false);
   if (!error.empty()) return Unexpected{error};
   return cases;
-}
-
-GateCases::GateCases(GateCases&& other) noexcept
-    : folder_(std::exchange(other.folder_, {})),
-      files_(std::move(other.files_)),
-      hashes_(std::move(other.hashes_)),
-      cells_(std::move(other.cells_)),
-      jobs_(std::move(other.jobs_)) {}
-
-GateCases::~GateCases() {
-  std::error_code ignored;
-  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
 std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed) {
@@ -74,10 +56,10 @@ std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bo
     for (const PreparedInstance& prepared : sweep->sets[parameters.set].instances) {
       const auto [place, is_new] = known.emplace(prepared.row.content_hash, files_.size());
       if (is_new) {
-        files_.push_back((folder_ / fmt::format("{}.xml", files_.size())).string());
+        files_.push_back((folder_.path() / fmt::format("{}.xml", files_.size())).string());
         hashes_.push_back(prepared.row.content_hash);
         if (!write_file(files_.back(), write_instance_xml(prepared.instance))) {
-          return folder_.string() + ": cannot be written to, expected room for a few small files";
+          return folder_.path().string() + ": cannot be written to, expected room for a few small files";
         }
       }
       cell.jobs.push_back(jobs_.size());

@@ -2,12 +2,13 @@
 // besides, of which only the results are compared.
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/gate/worker_process.hpp"
 #include "bench/sweep/expand.hpp"
+#include "bench/temporary_folder.hpp"
 #include "planner/core/expected.hpp"
 
 namespace sipplab::bench {
@@ -36,12 +37,6 @@ class GateCases {
   static Expected<GateCases, std::string> make(const std::string& suite, std::uint64_t seed,
                                                bool timed_only = false);
 
-  GateCases(GateCases&& other) noexcept;
-  GateCases(const GateCases&) = delete;
-  GateCases& operator=(const GateCases&) = delete;
-  GateCases& operator=(GateCases&&) = delete;
-  ~GateCases();
-
   const std::vector<GateCell>& cells() const { return cells_; }
   const std::vector<GateJob>& jobs() const { return jobs_; }
 
@@ -50,10 +45,10 @@ class GateCases {
   Expected<std::size_t, std::string> hand_over(WorkerProcess& worker, bool all) const;
 
  private:
-  GateCases() = default;
+  explicit GateCases(TemporaryFolder folder) : folder_(std::move(folder)) {}
   std::string add_suite(const std::string& name, std::uint64_t seed, bool timed);
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::vector<std::string> files_;
   std::vector<std::string> hashes_;
   std::vector<GateCell> cells_;

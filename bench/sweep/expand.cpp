@@ -99,7 +99,8 @@ class Expansion {
       const InstanceSet& instances = sweep_.sets[set];
       SweepCase parameters{
           instances.environment,  instances.map_spec,          instances.name, instances.robots,
-          instances.radius_cells, instances.speed_cells_per_s, options,        set};
+          instances.radius_cells, instances.speed_cells_per_s, options,        set,
+          request_.command};
       std::string name = case_name(parameters, seeds > 1);
       if (names_.insert(name).second) sweep_.cases.push_back({std::move(name), std::move(parameters)});
     }

@@ -30,6 +30,7 @@ struct SweepRequest {
   std::optional<std::uint64_t> max_expansions;
   std::optional<std::uint64_t> max_restarts;
   std::uint64_t seed = 1;
+  std::string command;  ///< name of the program that plans instead; empty: this planner
 };
 
 struct NamedCase {

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 // Set for this file alone by bench/CMakeLists.txt.
 #ifndef SIPPLAB_BUILD_FLAGS
@@ -41,9 +43,21 @@ std::string proc_value(const char* path, const std::string& name) {
   return "";
 }
 
+std::string digest_text(XXH64_hash_t digest) { return fmt::format("{:016x}", digest); }
+
+/// text_digest() of this program's file, piece by piece: what a sweep holds in memory, the
+/// programs that it starts begin with.
 std::string program_hash() {
-  const std::string bytes = read_text(kThisProgram);
-  return bytes.empty() ? "" : text_digest(bytes);
+  std::ifstream file(kThisProgram, std::ios::binary);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  std::vector<char> piece(std::size_t{1} << 16);
+  bool empty = true;
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0) {
+    empty = false;
+    XXH3_64bits_update(state.get(), piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  return empty ? "" : digest_text(XXH3_64bits_digest(state.get()));
 }
 
 }  // namespace
@@ -107,9 +121,7 @@ db::BuildInfo build_info(const SourceInfo& source) {
   return build;
 }
 
-std::string text_digest(std::string_view text) {
-  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
-}
+std::string text_digest(std::string_view text) { return digest_text(XXH3_64bits(text.data(), text.size())); }
 
 std::string unfit_for_timing() {
   std::string reasons;

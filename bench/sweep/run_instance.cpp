@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "planner/validator/validator.hpp"
-
 namespace sipplab::bench {
 namespace {
 
@@ -41,9 +39,26 @@ std::string limit_struck(const PlanResult& result, const PlannerOptions& options
   return "time";
 }
 
-void add_verdict(const Instance& instance, const PlanResult& result, const PlannerOptions& options,
-                 db::ResultRow& row) {
-  const ValidationReport report = validate(instance, result.solution, {options.ssi_s, result.order()});
+/// Whether a violation of this kind can be the rounding of a number.
+bool is_measured(ViolationKind kind) {
+  return kind == ViolationKind::kAgentCollision || kind == ViolationKind::kObstacleCollision ||
+         kind == ViolationKind::kSpeed;
+}
+
+}  // namespace
+
+void add_solution(const Solution& solution, db::ResultRow& row) {
+  row.makespan_s = makespan_s(solution);
+  row.flowtime_s = flowtime_s(solution);
+  row.plan_hash = leading_bits(plan_hash(solution));
+}
+
+void add_verdict(const Instance& instance, const Solution& solution, const ValidationOptions& options,
+                 db::ResultRow& row, double rounding) {
+  ValidationReport report = validate(instance, solution, options);
+  std::erase_if(report.violations, [rounding](const Violation& violation) {
+    return is_measured(violation.kind) && violation.depth_cells <= rounding;
+  });
   row.valid = report.valid();
   row.violations = static_cast<std::int64_t>(report.violations.size());
   if (!std::isnan(report.min_clearance_cells)) row.min_clearance_cells = report.min_clearance_cells;
@@ -51,8 +66,6 @@ void add_verdict(const Instance& instance, const PlanResult& result, const Plann
   row.status = db::ResultStatus::kInvalid;
   row.message = report.violations.front().message;
 }
-
-}  // namespace
 
 db::ResultRow described(const PlannerOptions& options, const PlanResult& result) {
   constexpr double kNanosecondsPerSecond = 1e9;
@@ -63,16 +76,15 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
   row.expansions = result.statistics.expansions;
   row.generations = result.statistics.generations;
   row.limit = limit_struck(result, options);
-  if (result.status != PlanStatus::kSolved) return row;
-  row.makespan_s = makespan_s(result.solution);
-  row.flowtime_s = flowtime_s(result.solution);
-  row.plan_hash = leading_bits(plan_hash(result.solution));
+  if (result.status == PlanStatus::kSolved) add_solution(result.solution, row);
   return row;
 }
 
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   db::ResultRow row = described(options, result);
-  if (result.status == PlanStatus::kSolved) add_verdict(instance, result, options, row);
+  if (result.status == PlanStatus::kSolved) {
+    add_verdict(instance, result.solution, {options.ssi_s, result.order()}, row);
+  }
   return row;
 }
 

@@ -6,6 +6,7 @@
 #include "planner/instance/instance.hpp"
 #include "planner/prioritized/options.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/validator/validator.hpp"
 
 namespace sipplab::bench {
 
@@ -15,6 +16,15 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
 /// The row of the history for what the planner returned, repetition aside. A plan that
 /// the validator rejects has status invalid and the first violation as its message.
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result);
+
+/// Makespan, flowtime and hash of a plan, whoever made it.
+void add_solution(const Solution& solution, db::ResultRow& row);
+
+/// The validator's verdict on a plan; where it rejects it, status invalid and the message.
+/// `rounding`: overlaps up to so many cells, and durations wrong by up to so many seconds,
+/// are the rounding of a file and no violations.
+void add_verdict(const Instance& instance, const Solution& solution, const ValidationOptions& options,
+                 db::ResultRow& row, double rounding = 0);
 
 /// plan() and judged().
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options);

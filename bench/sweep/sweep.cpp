@@ -57,11 +57,13 @@ db::Result<db::Done> Recording::start() {
   return db::Done{};
 }
 
-Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress)
+Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
+             std::optional<CommandPlanner> command)
     : recording_(std::move(recording)),
       repetitions_(repetitions),
       progress_(cases.cases.size(), instance_count(cases) * static_cast<std::size_t>(repetitions),
-                live_progress) {
+                live_progress),
+      command_(std::move(command)) {
   sets_ = std::move(cases.sets);
   entries_ = entries_of(std::move(cases.cases));
 }
@@ -86,6 +88,10 @@ bool Sweep::begin() {
 
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
+db::ResultRow Sweep::plan_one(const PreparedInstance& prepared, const PlannerOptions& options) const {
+  return command_ ? command_->run(prepared.instance, options) : run_instance(prepared.instance, options);
+}
+
 void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counters) {
   const std::vector<PreparedInstance>& instances = sets_[entry.parameters.set].instances;
   if (!std::exchange(entry.begun, true) && !stopping()) {
@@ -102,11 +108,16 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     const std::size_t position = next++;
     const PreparedInstance& prepared = instances[position];
-    db::ResultRow row = run_instance(prepared.instance, entry.parameters.options);
+    db::ResultRow row = plan_one(prepared, entry.parameters.options);
+    if (command_ && stopping()) {
+      state.SkipWithError("stopped before its end");  // the program was ended, too
+      break;
+    }
     row.position = static_cast<std::int64_t>(position);
     row.repetition = entry.repetitions;
     state.SetIterationTime(static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond);
-    if (row.status == db::ResultStatus::kInvalid && violation.empty()) {
+    // Of this planner that is an error of its own; of another one it is a result.
+    if (!command_ && row.status == db::ResultStatus::kInvalid && violation.empty()) {
       violation = entry.name + ", " + prepared.row.name + ": " + row.message;
     }
     outcome.add(row);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/external/command_planner.hpp"
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/progress.hpp"
@@ -46,7 +47,9 @@ class Recording {
 
 class Sweep {
  public:
-  Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress);
+  /// `command`: plans instead of this planner.
+  Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
+        std::optional<CommandPlanner> command = std::nullopt);
 
   /// Makes a benchmark of each case. `fill_counters`: give every counter a value, as
   /// CSV needs (-1 for a mean over nothing).
@@ -71,12 +74,14 @@ class Sweep {
  private:
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
+  db::ResultRow plan_one(const PreparedInstance& prepared, const PlannerOptions& options) const;
 
   std::vector<InstanceSet> sets_;
   std::vector<SweepEntry> entries_;
   Recording recording_;
   std::int64_t repetitions_;
   Progress progress_;
+  std::optional<CommandPlanner> command_;
   std::optional<db::Error> error_;
   std::string first_invalid_;
 };

@@ -12,7 +12,9 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 
 }  // namespace
 
-std::string planner_name(const PlannerOptions& options) {
+std::string planner_name(const SweepCase& sweep_case) {
+  const PlannerOptions& options = sweep_case.options;
+  if (!sweep_case.command.empty()) return "cmd:" + sweep_case.command;
   return fmt::format("{}-{}", options.any_angle ? "any-angle" : "grid", 1 << options.connectedness);
 }
 
@@ -22,7 +24,7 @@ std::string case_name(const SweepCase& sweep_case, bool with_seed) {
   return fmt::format("plan/{}/agents:{}/ssi:{}/reschedule:{}/order:{}/planner:{}",
                      generated ? sweep_case.map_spec : sweep_case.environment, sweep_case.robots,
                      format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
-                     planner_name(options)) +
+                     planner_name(sweep_case)) +
          (with_seed ? fmt::format("/seed:{}", options.seed) : "");
 }
 
@@ -30,7 +32,7 @@ std::string short_case_name(const SweepCase& sweep_case) {
   const PlannerOptions& options = sweep_case.options;
   return fmt::format("{}, {} robots, ssi {}, {}, {}, {}", sweep_case.environment, sweep_case.robots,
                      format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
-                     planner_name(options));
+                     planner_name(sweep_case));
 }
 
 db::CaseInfo case_row(const SweepCase& sweep_case) {
@@ -41,7 +43,9 @@ db::CaseInfo case_row(const SweepCase& sweep_case) {
   row.instance_set = sweep_case.instance_set;
   row.robots = static_cast<std::int64_t>(sweep_case.robots);
   row.ssi_s = options.ssi_s;
-  row.planner = options.any_angle ? "aa-sipp" : "sipp";
+  row.planner = !sweep_case.command.empty() ? planner_name(sweep_case)
+                : options.any_angle         ? "aa-sipp"
+                                            : "sipp";
   row.order = std::string(name(options.order));
   row.reschedule = std::string(name(options.rescheduling));
   row.any_angle = options.any_angle;

@@ -18,11 +18,13 @@ struct SweepCase {
   double radius_cells = kDefaultRadiusCells;
   double speed_cells_per_s = kDefaultSpeedCellsPerS;
   PlannerOptions options;
-  std::size_t set = 0;  ///< which InstanceSet of the sweep
+  std::size_t set = 0;       ///< which InstanceSet of the sweep
+  std::string command = {};  ///< name of the CommandPlanner that plans it; empty: this planner
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
-std::string planner_name(const PlannerOptions& options);
+/// "cmd:NAME": another program.
+std::string planner_name(const SweepCase& sweep_case);
 
 /// "plan/warehouse/agents:64/ssi:5/reschedule:deterministic/order:shortest/planner:any-angle-4",
 /// and "/seed:2" where more than one seed is tried.

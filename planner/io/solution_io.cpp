@@ -36,9 +36,11 @@ Input<SolutionDocument> parse_solution(std::string_view text, const std::string&
     return parse_solution_xml(text, file_name, instance);
   }
   if (head.substr(0, 1) == "{") return parse_solution_json(text, file_name, instance);
+  if (is_plain_solution(head)) return parse_solution_plain(text, file_name, instance);
   if (head.substr(0, 5) == "agent") return parse_solution_csv(text, file_name, instance);
   return Unexpected{InputError{file_name, 1, text.empty() ? "empty file" : "not a solution",
-                               "XML with <log>, a JSON object, or CSV that begins with 'agent,id,t0'"}};
+                               "XML with <log>, a JSON object, CSV that begins with 'agent,id,t0', or lines "
+                               "such as '0: (3,4,0) (5,4,2)'"}};
 }
 
 Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance) {

@@ -45,12 +45,14 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
 std::string solution_to_csv(const Instance& instance, const SolutionDocument& document);
 std::string write_solution(SolutionFormat format, const Instance& instance, const SolutionDocument& document);
 
-/// Reads a solution of this instance; the format is told from the content. The
-/// published planner's logs are read as well: their durations, rounded to 8 digits,
-/// are summed up from time 0, and a straight section that takes its length over
-/// the robot's speed to within that rounding gets exactly that duration. A robot
-/// without motions stays at its start. Whether the solution is right is for
-/// validate() to say; here only its form is checked.
+/// Reads a solution of this instance; the format is told from the content. Besides the
+/// formats that are written, plain lines are read, one a robot: its id, or else its position counted from 0,
+/// a colon, and the cells with the times at which it is there, `0: (3,4,0) (5,4,2)`; the words "agent" and
+/// "robot" before it, arrows between, and lines that begin with # are passed over. The published planner's
+/// logs are read as well: their durations, rounded to 8 digits, are summed up from time 0, and a straight
+/// section that takes its length over the robot's speed to within that rounding gets exactly that duration. A
+/// robot without motions stays at its start. Whether the solution is right is for validate() to say; here
+/// only its form is checked.
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
                                        const Instance& instance);
 Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance);

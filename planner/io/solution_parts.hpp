@@ -1,4 +1,4 @@
-// What the readers of the three solution formats share.
+// What the readers of the solution formats share.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,10 @@ Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::str
                                            const Instance& instance);
 Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::string& file_name,
                                            const Instance& instance);
+Input<SolutionDocument> parse_solution_plain(std::string_view text, const std::string& file_name,
+                                             const Instance& instance);
+/// Whether the text begins as a solution in plain lines does: "0: (3,4,0)", or "# words".
+bool is_plain_solution(std::string_view head);
 
 /// Puts trajectories in the order of the instance's agents. They are told by id;
 /// by position where ids repeat or are left out.

@@ -20,52 +20,6 @@ constexpr NumberRange kTimes{0, std::numeric_limits<double>::max(), "a number fr
 /// Counts are read as doubles; up to here each is exact.
 constexpr NumberRange kCounts{0, 0x1p53, "a number from 0"};
 
-std::string_view published_name(InitialOrder order) {
-  switch (order) {
-    case InitialOrder::kShortestFirst:
-      return "shortest_first";
-    case InitialOrder::kLongestFirst:
-      return "longest_first";
-    case InitialOrder::kRandom:
-      return "random";
-    case InitialOrder::kFifo:
-      break;
-  }
-  return "fifo";
-}
-
-std::string_view published_name(Rescheduling rescheduling) {
-  switch (rescheduling) {
-    case Rescheduling::kDeterministic:
-      return "rulebased";
-    case Rescheduling::kRandom:
-      return "random";
-    case Rescheduling::kNone:
-      break;
-  }
-  return "no";
-}
-
-void append_element(std::string& out, const char* name, std::string_view text) {
-  out += std::string("\t\t<") + name + ">";
-  out += text;
-  out += std::string("</") + name + ">\n";
-}
-
-void append_options(std::string& out, const PlannerOptions& options) {
-  const auto time = [](double time_s, const char* infinite) {
-    return std::isinf(time_s) ? std::string(infinite) : format_real(time_s);
-  };
-  out += "\t<algorithm>\n";
-  append_element(out, "allowanyangle", options.any_angle ? "true" : "false");
-  append_element(out, "connectedness", std::to_string(options.connectedness));
-  append_element(out, "prioritization", published_name(options.order));
-  append_element(out, "rescheduling", published_name(options.rescheduling));
-  append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));
-  append_element(out, "timelimit", time(options.time_limit_s, "-1"));
-  out += "\t</algorithm>\n";
-}
-
 void append_summary(std::string& out, const Instance& instance, const SolutionDocument& document) {
   out += "\t\t<summary";
   append_attribute(out, "runtime", document.planning_seconds);
@@ -108,14 +62,21 @@ std::uint64_t read_count(XmlReader& reader, xml_node node, const char* name) {
   return static_cast<std::uint64_t>(reader.optional_real(node, name, kCounts).value_or(0));
 }
 
-void read_summary(XmlReader& reader, xml_node summary, SolutionDocument& document) {
+/// The published planner says how many robots it solved, "21 (65.625000%)", and no status.
+const char* implied_status(xml_node summary, const Instance& instance) {
+  const std::string_view text = trimmed(summary.attribute("agentssolved").value());
+  const auto solved = parse_integer(text.substr(0, text.find(' ')));
+  return solved && *solved < static_cast<std::int64_t>(instance.agents.size()) ? "failed" : "solved";
+}
+
+void read_summary(XmlReader& reader, xml_node summary, const Instance& instance, SolutionDocument& document) {
   document.planning_seconds = reader.optional_real(summary, "runtime", kTimes).value_or(0);
   document.makespan_s = reader.optional_real(summary, "makespan", kTimes);
   document.flowtime_s = reader.optional_real(summary, "flowtime", kTimes);
   document.tries = read_count(reader, summary, "tries");
   document.expansions = read_count(reader, summary, "expansions");
   document.generations = read_count(reader, summary, "generations");
-  document.status = summary.attribute("status").as_string("solved");
+  document.status = summary.attribute("status").as_string(implied_status(summary, instance));
   if (document.status != "solved" && document.status != "failed" && document.status != "limit") {
     reader.fail(summary, "status " + in_quotes(document.status), "solved, failed or limit");
   }
@@ -187,7 +148,7 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
   PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
   std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
   append_instance_xml(out, instance);
-  if (document.options) append_options(out, *document.options);
+  if (document.options) append_options_xml(out, *document.options);
   out += "\t<log>\n";
   append_summary(out, instance, document);
   out += "\t\t<order>";
@@ -214,7 +175,7 @@ Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::str
     document.options.emplace();
     apply(options->options, *document.options);
   }
-  read_summary(reader, reader.only_child(log, "summary"), document);
+  read_summary(reader, reader.only_child(log, "summary"), instance, document);
   read_order(reader, reader.only_child(log, "order"), instance, document.order);
   if (!reader.failed()) read_trajectories(reader, log, instance, document);
   if (reader.failed()) return Unexpected{reader.error()};

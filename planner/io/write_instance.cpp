@@ -6,11 +6,45 @@
 
 namespace sipplab {
 
-std::string write_instance_xml(const Instance& instance) {
+namespace {
+
+/// A whole file with what `append` appends.
+template <class Append>
+std::string whole_file(const Append& append) {
   std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
-  append_instance_xml(out, instance);
+  append(out);
   out += "</root>\n";
   return out;
+}
+
+}  // namespace
+
+std::string write_instance_xml(const Instance& instance) {
+  return whole_file([&](std::string& out) { append_instance_xml(out, instance); });
+}
+
+std::string write_task_xml(const Instance& instance) {
+  return whole_file([&](std::string& out) { append_agents_xml(out, instance); });
+}
+
+std::string write_map_xml(const GridMap& map) {
+  return whole_file([&](std::string& out) { append_map_xml(out, map); });
+}
+
+std::string write_obstacles_xml(const Instance& instance) {
+  return whole_file([&](std::string& out) { append_obstacles_xml(out, instance); });
+}
+
+std::string write_config_xml(const PlannerOptions& options, const std::string& folder,
+                             const std::string& file) {
+  return whole_file([&](std::string& out) {
+    append_options_xml(out, options);
+    out += "\t<options>\n\t\t<loglevel>1</loglevel>\n\t\t<logpath>";
+    append_escaped(out, folder);
+    out += "</logpath>\n\t\t<logfilename>";
+    append_escaped(out, file);
+    out += "</logfilename>\n\t</options>\n";
+  });
 }
 
 std::string write_movingai_map(const GridMap& map) {

@@ -30,23 +30,6 @@ void append_agent(std::string& out, const Agent& agent) {
   out += "/>\n";
 }
 
-void append_map(std::string& out, const GridMap& map) {
-  out += "\t<map type=\"grid\">\n\t\t<grid";
-  append_attribute(out, "width", std::int64_t{map.width()});
-  append_attribute(out, "height", std::int64_t{map.height()});
-  out += ">\n";
-  out.reserve(out.size() + 2 * map.cell_count() + 16 * static_cast<std::size_t>(map.height()));
-  for (std::int32_t y = 0; y < map.height(); ++y) {
-    out += "\t\t\t<row>";
-    for (std::int32_t x = 0; x < map.width(); ++x) {
-      if (x > 0) out += ' ';
-      out += map.is_blocked({x, y}) ? '1' : '0';
-    }
-    out += "</row>\n";
-  }
-  out += "\t\t</grid>\n\t</map>\n";
-}
-
 void append_obstacle(std::string& out, const DynamicObstacle& obstacle) {
   out += "\t\t<obstacle";
   append_attribute(out, "id", obstacle.id);
@@ -61,6 +44,38 @@ void append_obstacle(std::string& out, const DynamicObstacle& obstacle) {
     append_sections(out, obstacle.trajectory, "\t\t\t");
   }
   out += "\t\t</obstacle>\n";
+}
+
+std::string_view published_name(InitialOrder order) {
+  switch (order) {
+    case InitialOrder::kShortestFirst:
+      return "shortest_first";
+    case InitialOrder::kLongestFirst:
+      return "longest_first";
+    case InitialOrder::kRandom:
+      return "random";
+    case InitialOrder::kFifo:
+      break;
+  }
+  return "fifo";
+}
+
+std::string_view published_name(Rescheduling rescheduling) {
+  switch (rescheduling) {
+    case Rescheduling::kDeterministic:
+      return "rulebased";
+    case Rescheduling::kRandom:
+      return "random";
+    case Rescheduling::kNone:
+      break;
+  }
+  return "no";
+}
+
+void append_element(std::string& out, const char* name, std::string_view text) {
+  out += std::string("\t\t<") + name + ">";
+  out += text;
+  out += std::string("</") + name + ">\n";
 }
 
 }  // namespace
@@ -99,17 +114,56 @@ void append_attribute(std::string& out, std::string_view name, std::int64_t valu
   append_attribute(out, name, std::string_view(std::to_string(value)));
 }
 
-void append_instance_xml(std::string& out, const Instance& instance) {
+void append_agents_xml(std::string& out, const Instance& instance) {
   out += "\t<agents";
   append_attribute(out, "number", static_cast<std::int64_t>(instance.agents.size()));
   out += ">\n";
   for (const Agent& agent : instance.agents) append_agent(out, agent);
   out += "\t</agents>\n";
-  append_map(out, instance.map);
+}
+
+void append_map_xml(std::string& out, const GridMap& map) {
+  out += "\t<map type=\"grid\">\n\t\t<grid";
+  append_attribute(out, "width", std::int64_t{map.width()});
+  append_attribute(out, "height", std::int64_t{map.height()});
+  out += ">\n";
+  out.reserve(out.size() + 2 * map.cell_count() + 16 * static_cast<std::size_t>(map.height()));
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    out += "\t\t\t<row>";
+    for (std::int32_t x = 0; x < map.width(); ++x) {
+      if (x > 0) out += ' ';
+      out += map.is_blocked({x, y}) ? '1' : '0';
+    }
+    out += "</row>\n";
+  }
+  out += "\t\t</grid>\n\t</map>\n";
+}
+
+void append_obstacles_xml(std::string& out, const Instance& instance) {
   if (instance.obstacles.empty()) return;
   out += "\t<dynamicobstacles>\n";
   for (const DynamicObstacle& obstacle : instance.obstacles) append_obstacle(out, obstacle);
   out += "\t</dynamicobstacles>\n";
+}
+
+void append_instance_xml(std::string& out, const Instance& instance) {
+  append_agents_xml(out, instance);
+  append_map_xml(out, instance.map);
+  append_obstacles_xml(out, instance);
+}
+
+void append_options_xml(std::string& out, const PlannerOptions& options) {
+  const auto time = [](double time_s, const char* infinite) {
+    return std::isinf(time_s) ? std::string(infinite) : format_real(time_s);
+  };
+  out += "\t<algorithm>\n";
+  append_element(out, "allowanyangle", options.any_angle ? "true" : "false");
+  append_element(out, "connectedness", std::to_string(options.connectedness));
+  append_element(out, "prioritization", published_name(options.order));
+  append_element(out, "rescheduling", published_name(options.rescheduling));
+  append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));
+  append_element(out, "timelimit", time(options.time_limit_s, "-1"));
+  out += "\t</algorithm>\n";
 }
 
 void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent) {

@@ -192,6 +192,19 @@ TEST(IoSolution, PublishedLogsAreSummedUpAndStraightSectionsMadeExact) {
   EXPECT_EQ(motions[2].end_s, motions[1].end_s + 11) << "too slow for rounding: kept as it stands";
 }
 
+TEST(IoSolution, APublishedLogOfFewerRobotsIsAFailure) {
+  const Instance instance = awkward_instance();
+  const auto log = [](const char* solved) {
+    return std::string("<root><log><summary runtime=\"0.5\" tries=\"4\" agentssolved=\"") + solved +
+           "\" flowtime=\"3\"/></log></root>";
+  };
+  const Input<SolutionDocument> read = parse_solution(log("2 (66.666667%)"), "s", instance);
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->status, "failed");
+  EXPECT_EQ(read->tries, 4u);
+  EXPECT_FALSE(parse_solution(log("3 (100.000000%)"), "s", instance)) << "a success without trajectories";
+}
+
 TEST(IoSolution, WrongSolutionsAreWrittenAndReadAsTheyAre) {
   const Instance instance = awkward_instance();
   SolutionDocument document;
@@ -216,6 +229,43 @@ TEST(IoSolution, RobotsAreToldById) {
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->solution.trajectories[0].motions.size(), 1u);
   EXPECT_EQ(read->solution.trajectories[2].start, (Cell{4, 3}));
+}
+
+TEST(IoSolution, PlainLinesAreRead) {
+  const Instance instance = awkward_instance();
+  const std::string text =
+      "# found by another planner\n"
+      "agent 007: (4,3,0)\r\n"
+      "\n"
+      "1: (0,2,0) -> ( 0, 2, 1.5 ) -> (7,0,25.75)\n"
+      "robot 0: (0,0,0), (7,2,7.5),\n";
+  const Input<SolutionDocument> read = parse_solution(text, "s", instance);
+  ASSERT_TRUE(read) << read.error().message();
+  const std::vector<Trajectory> wanted = {{{0, 0}, {{0, 7.5, {0, 0}, {7, 2}}}},
+                                          {{0, 2}, {{0, 1.5, {0, 2}, {0, 2}}, {1.5, 25.75, {0, 2}, {7, 0}}}},
+                                          {{4, 3}, {}}};
+  EXPECT_EQ(read->solution.trajectories, wanted);
+  EXPECT_EQ(read->status, "solved");
+}
+
+TEST(IoSolution, BadPlainLinesNameTheLine) {
+  const Instance instance = awkward_instance();
+  const std::string expected =
+      ", expected a robot, a colon and its cells and times, such as '0: (3,4,0) (5,4,2)'";
+  EXPECT_EQ(error_of("0: (0,0,0)\nnothing more\n", instance), "s:2: 'nothing more'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0) (1,0)\n", instance), "s:1: '(1,0)'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0) (1,0.5,2)\n", instance), "s:1: '(1,0.5,2)'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0) (1,0,nan)\n", instance), "s:1: '(1,0,nan)'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0) to (1,0,1)\n", instance), "s:1: 'to'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0) (1,0,1\n", instance), "s:1: '(1,0,1'" + expected);
+  EXPECT_EQ(error_of("0: (0,0,0)\n7:\n", instance), "s:2: ''" + expected);
+  EXPECT_EQ(
+      error_of("0: (0,0,0)\n9: (0,0,0)\n", instance),
+      "s:2: trajectory 9 for an instance of 3 robots, expected one line for each robot of the instance");
+  EXPECT_EQ(error_of("0: (0,0,0)\n0: (0,0,0)\n", instance),
+            "s:2: a second trajectory of robot '0', expected one line for each robot of the instance");
+  EXPECT_EQ(error_of("0: (0,0,0)\n1: (0,2,0)\n", instance),
+            "s:2: no line of robot '007', expected one for each robot of the instance");
 }
 
 TEST(IoSolution, BadJsonIsOneLine) {

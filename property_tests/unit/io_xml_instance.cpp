@@ -70,8 +70,7 @@ TEST(IoXmlInstance, BadAgentsNameTheirLine) {
             "f:3: start.x '9999999999' in <agent>, expected an integer between -2147483648 and 2147483647");
   for (const char* size : {"-1", "0", "nan", "inf", "65", "", "0.5x"}) {
     EXPECT_EQ(agent_error("<agent " + places + " size=\"" + size + "\"/>"),
-              "f:3: size '" + std::string(size) +
-                  "' in <agent>, expected a radius in cells, 0.001 to 64");
+              "f:3: size '" + std::string(size) + "' in <agent>, expected a radius in cells, 0.001 to 64");
   }
   EXPECT_EQ(agent_error("<agent " + places + " movespeed=\"0\"/>"),
             "f:3: movespeed '0' in <agent>, expected a speed in cells per second, 0.001 to 1000");

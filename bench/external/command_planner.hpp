@@ -1,0 +1,61 @@
+// Any other planner in the sweep: a program that is given an instance as files and leaves
+// a solution. Nothing that it says of itself is believed: its plan is validated, its time
+// and memory are measured from outside, and whatever becomes of it costs one row.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bench/temporary_folder.hpp"
+#include "db/records.hpp"
+#include "planner/core/expected.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/prioritized/options.hpp"
+
+namespace sipplab::bench {
+
+/// Address space of each process of another planner, MiB: four times what the published
+/// planner takes for the largest instances of its archive, and half of a small machine's memory.
+inline constexpr std::uint64_t kDefaultMemoryLimitMib = 4096;
+/// Wall-clock seconds where a case sets no limit: that of [AY18], section 5.
+inline constexpr double kDefaultCommandLimitS = 300;
+
+/// Overlap in cells, or error of a duration in seconds, that is laid to the rounding of a
+/// solution's numbers: the published planner writes 8 digits, sums of some ten durations of
+/// up to 100 s are off by up to 1e-5 s, and a robot moves a cell a second.
+inline constexpr double kDefaultRounding = 1e-5;
+
+struct CommandPlannerSpec {
+  std::string command;  ///< as the shell takes it, with placeholders
+  std::string name;     ///< in the history: "cmd:NAME"
+  std::uint64_t memory_limit_mib = kDefaultMemoryLimitMib;
+  double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
+};
+
+/// From "cmd:COMMAND". Named after its program unless `name` says otherwise. Errors: one line.
+Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::string& text,
+                                                                const std::string& name);
+
+class CommandPlanner {
+ public:
+  /// Errors: one line, where there is no place for its files.
+  static Expected<CommandPlanner, std::string> make(CommandPlannerSpec spec);
+
+  const std::string& name() const { return spec_.name; }
+
+  /// Runs the command on an instance and judges what it left: `solved` is a plan that the
+  /// validator accepts, `invalid` one that it rejects or that cannot be read, `limit` a program
+  /// that was ended for its time, `failed` everything else. Wall-clock time is that of the
+  /// program from its start to its end. Tries and expansions are what the solution states.
+  /// Start-safe intervals are not asked of it.
+  db::ResultRow run(const Instance& instance, const PlannerOptions& options) const;
+
+ private:
+  CommandPlanner(CommandPlannerSpec spec, TemporaryFolder folder)
+      : spec_(std::move(spec)), folder_(std::move(folder)) {}
+
+  CommandPlannerSpec spec_;
+  TemporaryFolder folder_;
+};
+
+}  // namespace sipplab::bench

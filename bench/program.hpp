@@ -1,0 +1,40 @@
+// Other programs, run with limits: fuzz targets, their replay programs, other planners.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sipplab::bench {
+
+struct ProgramOptions {
+  std::vector<std::string> environment = {};  ///< "NAME=value", replacing or added
+  std::filesystem::path log;                  ///< stderr goes to its end
+  double limit_s = 0;                         ///< wall clock; killed then
+  std::filesystem::path folder = {};          ///< to run in; empty: this process's own
+  bool all_to_log = false;                    ///< stdout goes to the log, too
+  /// The program leads a process group of its own, all of which is killed when the program
+  /// ends or its time is up. Asked while it runs: whether to give up on it.
+  bool own_group = false;
+  bool (*give_up)() = nullptr;
+};
+
+struct ProgramRun {
+  bool started = false;
+  bool timed_out = false;
+  bool given_up = false;
+  int exit_code = -1;  ///< -1 after a signal
+  int signal = 0;      ///< that ended it
+  double wall_time_s = 0;
+  double cpu_time_s = 0;
+  /// Of the largest among it and the processes that it waited for, but no less than what
+  /// this process holds when it starts the program.
+  std::int64_t peak_memory_bytes = 0;
+  std::string output;  ///< what it wrote to stdout
+};
+
+/// Runs the program until it ends; children that it leaves behind are not waited for.
+ProgramRun run_program(const std::vector<std::string>& command, const ProgramOptions& options);
+
+}  // namespace sipplab::bench

@@ -1,0 +1,35 @@
+#include "bench/temporary_folder.hpp"
+
+#include <stdlib.h>
+
+#include <system_error>
+#include <utility>
+
+namespace sipplab::bench {
+
+namespace fs = std::filesystem;
+
+Expected<TemporaryFolder, std::string> TemporaryFolder::make() {
+  std::error_code ignored;
+  const fs::path parent = fs::temp_directory_path(ignored);
+  std::string pattern = (parent / "sipplab-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    return Unexpected{parent.string() +
+                      ": no folder can be made in it, expected a place for temporary files"};
+  }
+  return TemporaryFolder(pattern);
+}
+
+TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+
+TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+}
+
+}  // namespace sipplab::bench

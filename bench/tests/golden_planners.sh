@@ -1,0 +1,130 @@
+#!/usr/bin/env bash
+# A golden run of other planners in the sweep: right ones, and ones that hang, crash, lie or
+# flood. Prints one line per promise that is broken.
+#
+#   golden_planners.sh PATH_OF_SIPPLAB
+set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
+
+sipplab=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export sipplab
+# The sanitizers' own memory is no planner's.
+unlimited=(--memory-limit 1073741824)
+
+# planner NAME: a program from stdin.
+planner() { { echo '#!/bin/sh' && cat; } >"$1" && chmod +x "$1"; }
+# sweeps NAME ARGUMENTS...: two instances of a robot or more through that planner.
+sweeps() {
+  local name=$1
+  shift
+  expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+    --db planners.db --planner "cmd:$work/$name {instance} {scen} {out} {config}" "$@"
+}
+# row NAME COLUMNS: of the first instance.
+row() { sqlite3 planners.db "SELECT $2 FROM v_results WHERE planner = 'cmd:$1' ORDER BY position LIMIT 1"; }
+# Nothing that a planner started is left.
+gone() { ! pgrep -f "sleep $1" >/dev/null || complain "a process that a planner left behind is still there: sleep $1"; }
+
+planner honest <<'E2'
+exec "$sipplab" plan --instance "$1" --config "$4" -o "$3"
+E2
+sweeps honest "${unlimited[@]}"
+says 'empty:9x9 .* 2/2 '
+equal "$(row honest 'status, valid, limit_struck IS NULL, planning_time_ns > 1000000, peak_memory_bytes > 1000000')" \
+  'solved|1|1|1|1' 'an honest planner'
+expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest --db planners.db
+equal "$(sqlite3 planners.db "SELECT count(*), count(DISTINCT plan_hash) FROM v_results
+    WHERE planner IN ('cmd:honest', 'aa-sipp')")" '4|2' 'its plans are the same'
+
+planner exits_with_1 <<'E2'
+"$sipplab" plan --instance "$1" -o "$3"
+exit 1
+E2
+sweeps exits_with_1 "${unlimited[@]}"
+equal "$(row exits_with_1 'status, valid')" 'solved|1' 'a plan counts, not the exit code'
+
+planner names_its_file <<'E2'
+exec "$sipplab" plan --instance "$1" -o "$(dirname "$3")/task_log.xml"
+E2
+sweeps names_its_file "${unlimited[@]}"
+equal "$(row names_its_file 'status, valid')" 'solved|1' 'a file with another name is found'
+
+# Straight ways at speed 1, in plain lines; the scenario has start and goal in columns 5 to 8.
+planner straight <<'E2'
+awk 'NF > 8 { printf "robot %d: (%d,%d,0) -> (%d,%d,%.6f)\n", n++, $5, $6, $7, $8, sqrt(($7-$5)^2+($8-$6)^2) }' "$2" >"$3"
+E2
+expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest \
+  --db planners.db --planner "cmd:$work/straight {instance} {scen} {out}" --planner-name 'plain lines'
+equal "$(sqlite3 planners.db "SELECT count(*), sum(valid) FROM v_results WHERE planner = 'cmd:plain lines'")" '3|3' \
+  'plain lines, rounded to a millionth'
+expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest \
+  --db planners.db --planner "cmd:$work/straight {instance} {scen} {out}" --planner-name strict --rounding 1e-12
+equal "$(sqlite3 planners.db "SELECT sum(valid) < 3 FROM v_results WHERE planner = 'cmd:strict'")" 1 \
+  'no rounding is allowed'
+
+planner liar <<'E2'
+awk 'NF > 8 { printf "%d: (%d,%d,0) (%d,%d,0.5)\n", n++, $5, $6, $7, $8 }' "$2" >"$3"
+E2
+sweeps liar
+equal "$(row liar "status, valid, message LIKE 'agent % takes %' OR message <> ''")" 'invalid|0|1' 'a claim of success'
+says ' 0/2 .* 0\.00 '
+
+planner nonsense <<'E2'
+echo "0: I give up" >"$3"
+E2
+sweeps nonsense
+equal "$(row nonsense "status, message LIKE 'solution:1: %'")" 'invalid|1' 'nonsense'
+
+planner silent <<'E2'
+echo "no idea" >&2
+E2
+sweeps silent
+equal "$(row silent 'status, message')" "failed|left no solution, ended with exit code 0: 'no idea'" 'nothing'
+
+planner crashes <<'E2'
+echo "about to fall" && kill -SEGV $$
+E2
+sweeps crashes
+equal "$(row crashes "status, message LIKE 'ended by signal 11 (Segmentation fault)%'")" 'failed|1' 'a crash'
+
+planner hangs <<'E2'
+trap '' TERM INT
+sleep 98761 &
+sleep 98762
+E2
+sweeps hangs --time-limit 0.2
+equal "$(row hangs 'status, limit_struck, message, planning_time_ns BETWEEN 1200000000 AND 9000000000')" \
+  'limit|time|killed after 1.2 s|1' 'a planner that hangs'
+gone 98761
+gone 98762
+
+planner leaves_a_child <<'E2'
+sleep 98763 &
+exec "$sipplab" plan --instance "$1" --config "$4" -o "$3"
+E2
+sweeps leaves_a_child "${unlimited[@]}"
+equal "$(row leaves_a_child 'status, planning_time_ns < 9000000000')" 'solved|1' 'a child is not waited for'
+gone 98763
+
+planner floods_memory <<'E2'
+head -c 4000000000 /dev/zero | tail
+E2
+sweeps floods_memory --memory-limit 64
+equal "$(row floods_memory "status, message LIKE 'left no solution, ended with exit code 1%'")" 'failed|1' 'memory'
+
+planner floods_output <<'E2'
+exec cat /dev/zero
+E2
+sweeps floods_output --time-limit 30
+equal "$(row floods_output "status, message LIKE 'ended by signal 25%'")" 'failed|1' 'a file without end'
+
+refused "expected cmd:COMMAND" bench --planner "honest {task}"
+refused "expected \{task\}, \{instance\} or \{scen\}" bench --planner "cmd:honest {map}"
+
+if [ "$broken" -gt 0 ]; then
+  printf '%d promises are broken\n' "$broken"
+  exit 1
+fi
