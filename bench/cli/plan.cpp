@@ -25,7 +25,7 @@ struct PlanArguments {
   PlannerFlags planner;
   std::optional<std::string> format;
   std::optional<std::string> output;
-  std::optional<std::string> svg;
+  PictureFlags picture;
   bool json = false;
   bool ignore_unsupported = false;
 };
@@ -77,10 +77,11 @@ std::string summary(const SolutionDocument& document, std::size_t robots) {
 std::optional<std::string> draw(const PlanArguments& arguments, const Instance& instance,
                                 const Solution& solution, const ValidationReport& report,
                                 const std::string& subtitle) {
-  if (!arguments.svg) return std::nullopt;
+  if (!arguments.picture.file) return std::nullopt;
   SvgOptions options;
   options.subtitle = subtitle;
-  const auto error = write_file(*arguments.svg, draw_svg(instance, solution, report, options));
+  options.animation_speed = arguments.picture.animation_speed();
+  const auto error = write_file(*arguments.picture.file, draw_svg(instance, solution, report, options));
   if (!error) return std::nullopt;
   return error->message();
 }
@@ -151,7 +152,7 @@ Command add_plan_command(CLI::App& program) {
   command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");
-  command->add_option("--svg", arguments->svg, "draw the solution there")->type_name("FILE");
+  arguments->picture.add_to(*command, "draw the solution there");
   command->add_flag("--json", arguments->json, "print one JSON document");
   command->add_flag("--ignore-unsupported", arguments->ignore_unsupported,
                     "plan although the input asks for features that are not there yet");

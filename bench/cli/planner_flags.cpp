@@ -108,6 +108,18 @@ void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
       "straight moves between any two cells");
 }
 
+void PictureFlags::add_to(CLI::App& command, const std::string& words) {
+  CLI::Option* svg = command.add_option("--svg", file, words)->type_name("FILE");
+  command
+      .add_option("--animate", animate_,
+                  "a picture that moves, so many seconds of the plan in one of its own")
+      ->needs(svg)
+      ->check(check_positive_real)
+      ->type_name("SPEED");
+}
+
+double PictureFlags::animation_speed() const { return animate_ ? parse_real(*animate_).value_or(1) : 0; }
+
 void add_database_flag(CLI::App& command, std::optional<std::string>& path) {
   command.add_option("--db", path, "history file; default $SIPPLAB_DB, else ./sipplab.db")->type_name("FILE");
 }

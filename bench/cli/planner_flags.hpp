@@ -64,6 +64,18 @@ double parse_time_limit_s(std::string_view text);
 /// --any-angle and --no-any-angle; empty unless the user gave one of them.
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
 
+/// --svg, with `words` for help, and --animate.
+struct PictureFlags {
+  std::optional<std::string> file;
+
+  void add_to(CLI::App& command, const std::string& words);
+  /// As SvgOptions::animation_speed.
+  double animation_speed() const;
+
+ private:
+  std::optional<std::string> animate_;
+};
+
 /// --db, with its help text.
 void add_database_flag(CLI::App& command, std::optional<std::string>& path);
 

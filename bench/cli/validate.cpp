@@ -24,7 +24,7 @@ struct ValidateArguments {
   InstanceFlags instance;
   std::string solution;
   std::optional<std::string> ssi;
-  std::optional<std::string> svg;
+  PictureFlags picture;
   bool certify = false;
   bool json = false;
 };
@@ -124,11 +124,13 @@ int run_validate(const ValidateArguments& arguments) {
   verdict.report = validate(loaded->instance, document.solution, options);
   if (arguments.certify) verdict.certification = certify(loaded->instance, document.solution);
   const ValidationReport& report = verdict.report;
-  if (arguments.svg) {
+  if (arguments.picture.file) {
     SvgOptions picture;
     picture.subtitle = report.valid() ? "valid" : "invalid: " + report.violations.front().message;
+    picture.animation_speed = arguments.picture.animation_speed();
     const std::string text = draw_svg(loaded->instance, document.solution, report, picture);
-    if (const auto error = write_file(*arguments.svg, text)) return fail(kBadUsage, error->message());
+    if (const auto error = write_file(*arguments.picture.file, text))
+      return fail(kBadUsage, error->message());
   }
   if (arguments.json) {
     print(to_json(loaded->instance, document, options, verdict));
@@ -151,8 +153,7 @@ Command add_validate_command(CLI::App& program) {
   command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default as the solution says")
       ->check(check_ssi)
       ->type_name("K");
-  command->add_option("--svg", arguments->svg, "draw the solution and its violations there")
-      ->type_name("FILE");
+  arguments->picture.add_to(*command, "draw the solution and its violations there");
   command->add_flag("--certify", arguments->certify,
                     "prove for each pair that it is safe or collides; exit code 3 where neither is proven");
   command->add_flag("--json", arguments->json, "print one JSON document");

@@ -3,8 +3,11 @@
 #include "planner/io/svg.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 
+#include "planner/io/svg_animation.hpp"
 #include "planner/io/svg_paint.hpp"
 #include "planner/io/svg_violations.hpp"
 #include "planner/io/text.hpp"
@@ -25,6 +28,7 @@ constexpr double kIdsFromCellSide = 11;
 constexpr double kSmallestIdInside = 8;
 constexpr double kIdBeside = 12;
 
+constexpr double kGoalBehindRobots = 0.25;
 constexpr std::size_t kMaxRobotsWithIds = 150;
 constexpr std::size_t kMaxRobotsWithIdsBeside = 40;
 
@@ -72,6 +76,7 @@ class Painter {
     for (std::size_t i = trajectories_.size(); i < instance.agents.size(); ++i) {
       trajectories_.push_back({instance.agents[i].start, {}});
     }
+    if (options.animation_speed > 0 && solved_) start_clock();
   }
 
   std::string paint() {
@@ -83,6 +88,7 @@ class Painter {
     lines();
     goals();
     starts();
+    if (clock_) bodies();
     draw_violation_marks(canvas_, {instance_, trajectories_, report_});
     canvas_ << "</g>\n";
     draw_violation_list(canvas_, report_, {kMargin, kHeaderHeight + map_height_px() + kMargin / 2});
@@ -91,6 +97,25 @@ class Painter {
   }
 
  private:
+  void start_clock() {
+    double end_s = 0;
+    const auto follow = [&end_s](const Trajectory& trajectory) {
+      double last_s = 0;
+      for (const TimedMotion& motion : trajectory.motions) {
+        if (!(motion.begin_s >= last_s && motion.end_s >= motion.begin_s && std::isfinite(motion.end_s)))
+          return false;
+        last_s = motion.end_s;
+      }
+      end_s = std::max(end_s, last_s);
+      return true;
+    };
+    for (const Trajectory& trajectory : trajectories_) {
+      if (!follow(trajectory)) return;
+    }
+    for (const DynamicObstacle& obstacle : instance_.obstacles) follow(obstacle.trajectory);
+    clock_.emplace(end_s, options_.animation_speed);
+  }
+
   double map_width_px() const { return cell_px_ * instance_.map.width(); }
   double map_height_px() const { return cell_px_ * instance_.map.height(); }
 
@@ -138,7 +163,11 @@ class Painter {
     };
     const std::string in_colour = "=\"" + robot_colour(0) + "\"";
     entry("<circle cx=\"10\" r=\"7\" fill=\"#ffffff\" stroke-width=\"2\" stroke" + in_colour + "/>", "start");
-    entry("<circle cx=\"10\" r=\"8\" fill" + in_colour + "/>", "goal");
+    const std::string faint = clock_ ? " fill-opacity=\"" + short_number(kGoalBehindRobots) + "\"/>" : "/>";
+    entry("<circle cx=\"10\" r=\"8\" fill" + in_colour + faint, "goal");
+    if (clock_) {
+      entry("<circle cx=\"10\" r=\"8\" stroke=\"#1d2230\" fill" + in_colour + "/>", "robot");
+    }
     if (solved_) {
       entry("<path d=\"M0 4L8 -4H20\" fill=\"none\" stroke-width=\"2.5\" stroke" + in_colour + "/>",
             "trajectory");
@@ -153,6 +182,20 @@ class Painter {
       entry("<path d=\"M4 -6L16 6M16 -6L4 6\" stroke-width=\"3\"" + stroke(kViolationColour), "violation");
     }
     canvas_ << "</g>\n";
+    if (clock_) progress_bar();
+  }
+
+  /// How much of the plan has been played, between header and map.
+  void progress_bar() {
+    constexpr double kHeightPx = 3;
+    canvas_ << "<rect fill=\"#4b5160\"";
+    canvas_.attribute("x", kMargin);
+    canvas_.attribute("y", kHeaderHeight - 2 * kHeightPx);
+    canvas_.attribute("width", 0);
+    canvas_.attribute("height", kHeightPx);
+    canvas_ << ">";
+    draw_progress(canvas_, map_width_px(), *clock_);
+    canvas_ << "</rect>\n";
   }
 
   /// From here on one unit is one cell and the centre of cell (0, 0) is the origin.
@@ -229,9 +272,11 @@ class Painter {
       const std::string in_colour = "=\"" + robot_colour(i) + "\"";
       canvas_ << "<g>";
       canvas_.tooltip(story(i));
+      // Where robots move, what stands still steps back.
+      const double opacity = clock_ ? kGoalBehindRobots : ink_.goal_opacity;
       canvas_.circle(centre(agent.goal), agent.radius_cells,
-                     "fill" + in_colour + " fill-opacity=\"" + short_number(ink_.goal_opacity) + "\"");
-      id(agent, agent.goal, agent.radius_cells, in_colour, "=\"#ffffff\"");
+                     "fill" + in_colour + " fill-opacity=\"" + short_number(opacity) + "\"");
+      id(agent, agent.goal, agent.radius_cells, in_colour, clock_ ? in_colour : "=\"#ffffff\"");
       canvas_ << "</g>\n";
     }
   }
@@ -254,6 +299,29 @@ class Painter {
                          (with_ids_ ? "0.85" : "0.35") + "\" stroke-width=\"" + short_number(ring_cells) +
                          "\"");
       id(agent, agent.start, radius, in_colour, in_colour);
+      canvas_ << "</g>\n";
+    }
+  }
+
+  /// The robots themselves, and the obstacles, on their way.
+  void bodies() {
+    const auto moving = [this](const Trajectory& trajectory, double radius, const std::string& style) {
+      canvas_ << "<g transform=\"translate(" << trajectory.start.x << " " << trajectory.start.y << ")\">";
+      draw_movement(canvas_, trajectory, *clock_);
+      canvas_.circle({0, 0}, radius, style);
+    };
+    for (const DynamicObstacle& obstacle : instance_.obstacles) {
+      moving(obstacle.trajectory, obstacle.radius_cells, std::string("fill=\"") + kGrey + "\"");
+      canvas_ << "</g>\n";
+    }
+    for (std::size_t i = 0; i < instance_.agents.size(); ++i) {
+      const Agent& agent = instance_.agents[i];
+      const double rim_cells = std::max(0.04, 0.5 / cell_px_);
+      moving(trajectories_[i], std::max(agent.radius_cells - rim_cells / 2, 0.01),
+             "stroke=\"#1d2230\" stroke-width=\"" + short_number(rim_cells) + "\" fill=\"" + robot_colour(i) +
+                 "\"");
+      canvas_.tooltip(story(i));
+      id(agent, {0, 0}, agent.radius_cells, "=\"#1d2230\"", "=\"#ffffff\"");
       canvas_ << "</g>\n";
     }
   }
@@ -286,6 +354,7 @@ class Painter {
   Ink ink_;
   bool with_ids_;
   SvgCanvas canvas_;
+  std::optional<SvgClock> clock_;  ///< of a picture that moves
 };
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace sipplab {
 struct SvgOptions {
   std::string title = "Solution";
   std::string subtitle;  ///< one line under the title, such as makespan and flowtime
+  /// Seconds of the plan in one second of a picture that moves; 0: a picture that stands
+  /// still. A solution with times that are not finite, or run backwards, stands still.
+  double animation_speed = 0;
 };
 
 /// A complete SVG document, legible from one robot to 10,000. An empty solution

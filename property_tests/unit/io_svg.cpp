@@ -57,6 +57,29 @@ TEST(IoSvg, ShowsEveryRobotWithATooltip) {
   EXPECT_NE(svg.find("d=\"M2 1h2v1h-2z\""), std::string::npos);
 }
 
+TEST(IoSvg, ASolutionThatIsAnimatedMovesByTheClock) {
+  const Instance instance = small_instance();
+  Solution solution = straight_solution(instance);
+  solution.trajectories[1] = {{5, 3}, {{2, 4, {5, 3}, {3, 3}}, {5, 8, {3, 3}, {0, 3}}}};
+  SvgOptions options;
+  EXPECT_EQ(draw_svg(instance, solution, {}, options).find("<animate"), std::string::npos);
+  options.animation_speed = 2;
+  const std::string svg = draw_svg(instance, solution, {}, options);
+  EXPECT_TRUE(is_well_formed(svg));
+  EXPECT_EQ(count(svg, "<animateTransform "), 3u) << "two robots and an obstacle";
+  // 8 s at twice the speed and 1.5 s of rest: 5.5 s a round, which is 11 s of the plan.
+  EXPECT_EQ(count(svg, " dur=\"5.5s\" repeatCount=\"indefinite\""), 4u) << "and the bar of progress";
+  EXPECT_NE(
+      svg.find("keyTimes=\"0;0.181818;0.363636;0.454545;0.727273;1\" values=\"5 3;5 3;3 3;3 3;0 3;0 3\""),
+      std::string::npos);
+
+  solution.trajectories[0].motions[0].end_s = -1;
+  EXPECT_EQ(draw_svg(instance, solution, {}, options).find("<animate"), std::string::npos)
+      << "time runs backwards";
+  EXPECT_EQ(draw_svg(instance, {}, {}, options).find("<animate"), std::string::npos)
+      << "there is no solution";
+}
+
 TEST(IoSvg, ViolationsAreMarkedWithBothBodiesAndListed) {
   const Instance instance = small_instance();
   ValidationReport report;
