@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/sweep/sweep_case.hpp"
 #include "planner/prioritized/options.hpp"
 
 namespace sipplab::bench {
@@ -17,9 +18,7 @@ const Part kParts[] = {
     [](const db::CaseInfo& c) { return "ssi " + format_ssi(c.ssi_s); },
     [](const db::CaseInfo& c) { return c.reschedule; },
     [](const db::CaseInfo& c) { return c.order; },
-    [](const db::CaseInfo& c) {
-      return fmt::format("{}-{}", c.any_angle ? "any-angle" : "grid", 1 << c.connectedness);
-    },
+    [](const db::CaseInfo& c) { return planner_name(c.planner, c.any_angle, c.connectedness); },
     [](const db::CaseInfo& c) { return fmt::format("seed {}", c.seed); },
 };
 constexpr std::size_t kAlwaysThere = 2;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "bench/sweep/sweep_case.hpp"
 #include "planner/prioritized/options.hpp"
 
 namespace sipplab::bench {
@@ -48,13 +49,17 @@ std::string planner_flags(const db::CaseInfo& parameters) {
 std::string replay_command(const db::CaseInfo& parameters, const std::string& instance_name) {
   const std::optional<std::uint64_t> index = number_after(instance_name, " index:");
   const std::optional<std::uint64_t> seed = number_after(instance_name, " seed:");
+  const bool is_ours = !is_another_program(parameters.planner);
+  const auto plan = [&](const std::string& file) {
+    if (!is_ours) return fmt::format("give {} to {}", file, parameters.planner);
+    return fmt::format("sipplab plan --instance {} {}", file, planner_flags(parameters));
+  };
   if (parameters.map_spec == "files" || !index || !seed) {
-    return fmt::format("sipplab plan --instance {} {}", instance_name, planner_flags(parameters));
+    return plan(instance_name);
   }
-  return fmt::format(
-      "sipplab generate --map {} --agents {} --seed {} --count {} -o replay && sipplab plan --instance "
-      "replay/{}.xml {}",
-      parameters.map_spec, parameters.robots, *seed, *index + 1, *index, planner_flags(parameters));
+  return fmt::format("sipplab generate --map {} --agents {} --seed {} --count {} -o replay {} {}",
+                     parameters.map_spec, parameters.robots, *seed, *index + 1, is_ours ? "&&" : "and",
+                     plan(fmt::format("replay/{}.xml", *index)));
 }
 
 }  // namespace sipplab::bench

@@ -8,7 +8,8 @@
 namespace sipplab::bench {
 
 /// "sipplab generate ... && sipplab plan ..." for an instance that was generated, "sipplab plan
-/// --instance ..." for one that was read from a file. `instance_name` is the history's.
+/// --instance ..." for one that was read from a file; of another program's case, the words that say
+/// which file to give it. `instance_name` is the history's.
 std::string replay_command(const db::CaseInfo& parameters, const std::string& instance_name);
 
 }  // namespace sipplab::bench

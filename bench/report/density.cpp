@@ -7,14 +7,15 @@
 #include <set>
 
 #include "bench/report/numbers.hpp"
+#include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {
 namespace {
 
 /// What stays the same within a picture.
 std::string method_of(const db::CellSummary& cell) {
-  return fmt::format("{}, {}, {}, {}-{}", cell.environment, cell.reschedule, cell.order,
-                     cell.any_angle ? "any-angle" : "grid", 1 << cell.connectedness);
+  return fmt::format("{}, {}, {}, {}", cell.environment, cell.reschedule, cell.order,
+                     planner_name(cell.planner, cell.any_angle, cell.connectedness));
 }
 
 std::string file_name(const std::string& kind, const std::string& method) {

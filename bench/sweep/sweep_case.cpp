@@ -7,15 +7,31 @@
 namespace sipplab::bench {
 namespace {
 
+constexpr std::string_view kProgramPrefix = "cmd:";
+
 /// The history keeps counts as signed integers; its largest means "no limit".
 std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCountLimit); }
 
+/// As the history has it.
+std::string planner_of(const SweepCase& sweep_case) {
+  if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
+  return sweep_case.options.any_angle ? "aa-sipp" : "sipp";
+}
+
 }  // namespace
+
+bool is_another_program(std::string_view planner) {
+  return planner.substr(0, kProgramPrefix.size()) == kProgramPrefix;
+}
+
+std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
+  if (is_another_program(planner)) return std::string(planner);
+  return fmt::format("{}-{}", any_angle ? "any-angle" : "grid", 1 << connectedness);
+}
 
 std::string planner_name(const SweepCase& sweep_case) {
   const PlannerOptions& options = sweep_case.options;
-  if (!sweep_case.command.empty()) return "cmd:" + sweep_case.command;
-  return fmt::format("{}-{}", options.any_angle ? "any-angle" : "grid", 1 << options.connectedness);
+  return planner_name(planner_of(sweep_case), options.any_angle, options.connectedness);
 }
 
 std::string case_name(const SweepCase& sweep_case, bool with_seed) {
@@ -43,9 +59,7 @@ db::CaseInfo case_row(const SweepCase& sweep_case) {
   row.instance_set = sweep_case.instance_set;
   row.robots = static_cast<std::int64_t>(sweep_case.robots);
   row.ssi_s = options.ssi_s;
-  row.planner = !sweep_case.command.empty() ? planner_name(sweep_case)
-                : options.any_angle         ? "aa-sipp"
-                                            : "sipp";
+  row.planner = planner_of(sweep_case);
   row.order = std::string(name(options.order));
   row.reschedule = std::string(name(options.rescheduling));
   row.any_angle = options.any_angle;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "bench/sweep/instance_set.hpp"
 #include "db/records.hpp"
@@ -23,8 +25,12 @@ struct SweepCase {
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
-/// "cmd:NAME": another program.
+/// "cmd:NAME": another program, which `planner` of the history is named after.
+std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);
+
+/// Whether `planner` of the history is another program.
+bool is_another_program(std::string_view planner);
 
 /// "plan/warehouse/agents:64/ssi:5/reschedule:deterministic/order:shortest/planner:any-angle-4",
 /// and "/seed:2" where more than one seed is tried.

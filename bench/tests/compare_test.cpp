@@ -161,6 +161,17 @@ TEST(ReplayCommand, TakesFilesAsTheyAre) {
             "--connectedness 2 --no-any-angle --seed 1");
 }
 
+TEST(ReplayCommand, NamesAnotherProgramForWhatItPlanned) {
+  db::CaseInfo parameters = equal_cell(0).parameters;
+  parameters.planner = "cmd:other";
+  EXPECT_EQ(
+      replay_command(parameters, "warehouse agents:64 seed:1 index:3"),
+      "sipplab generate --map warehouse --agents 64 --seed 1 --count 4 -o replay and give replay/3.xml to "
+      "cmd:other");
+  EXPECT_EQ(case_words({parameters}).front(),
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, cmd:other, seed 1");
+}
+
 TEST(CaseWords, SayWhatTellsCasesApart) {
   db::CaseInfo one = equal_cell(0).parameters;
   db::CaseInfo other = one;
