@@ -14,6 +14,9 @@ constexpr Rescheduling kRandom = Rescheduling::kRandom;
 /// machine it is they that strike.
 constexpr double kGenerousLimitS = 20;
 
+/// Seconds: what the hardest cells of the quick reproduction may cost each.
+constexpr double kQuickLimitS = 10;
+
 /// Any-angle over 8 neighbours: what the authors ran.
 constexpr PlannerMode kPaperPlanner{true, 3};
 
@@ -89,6 +92,22 @@ Suite paper() {
   return suite;
 }
 
+/// The cells that the paper's sentences speak of, on few instances.
+Suite paper_quick() {
+  Suite suite = paper();
+  suite.name = "paper-quick";
+  suite.purpose = "the paper's decisive cells on forty instances each, in some minutes";
+  suite.instances = 40;
+  suite.time_limit_s = kQuickLimitS;
+  suite.blocks[0].robots = {32, 64, 128, 192};
+  suite.blocks[0].ssi_s = {0, 3, 5, 9, kInfiniteSsi};
+  for (SuiteBlock* block : {&suite.blocks[1], &suite.blocks[2]}) {
+    block->robots = {32, 64, 96, 128};
+    block->random_seeds = 2;
+  }
+  return suite;
+}
+
 /// Tries of an adversarial case: as many as performance fuzzing allowed.
 constexpr std::uint64_t kAdversarialRestarts = 100;
 
@@ -105,7 +124,7 @@ Suite adversarial() {
 }  // namespace
 
 const std::vector<Suite>& suites() {
-  static const std::vector<Suite> all = {smoke(), gate(), density(), paper(), adversarial()};
+  static const std::vector<Suite> all = {smoke(), gate(), density(), paper(), paper_quick(), adversarial()};
   return all;
 }
 

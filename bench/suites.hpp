@@ -42,7 +42,7 @@ struct Suite {
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, paper, adversarial.
+/// smoke, gate, density, paper, paper-quick, adversarial.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

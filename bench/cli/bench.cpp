@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/cli/bench_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
@@ -30,33 +31,6 @@
 namespace sipplab::cli {
 namespace {
 
-struct BenchArguments {
-  std::string suite = "density";
-  std::vector<std::string> folders;
-  std::optional<std::string> map;
-  std::vector<std::size_t> robots;
-  std::vector<std::string> ssi;
-  std::vector<std::string> reschedule;
-  std::vector<std::string> order;
-  std::vector<int> connectedness;
-  std::optional<bool> any_angle;
-  std::optional<std::uint64_t> count;
-  std::optional<std::string> time_limit;
-  std::optional<std::uint64_t> max_expansions;
-  std::optional<std::uint64_t> max_restarts;
-  std::uint64_t seed = 1;
-  std::int64_t repetitions = 1;
-  std::optional<std::string> planner;
-  std::string planner_name;
-  std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
-  std::optional<std::string> rounding;
-  std::optional<std::string> shard;
-  bool resume = false;
-  std::optional<std::string> database;
-  bool json = false;
-  Invocation invocation;
-};
-
 /// The program that plans instead, where the user names one.
 std::optional<bench::CommandPlannerSpec> command_of(const BenchArguments& arguments) {
   if (!arguments.planner) return std::nullopt;
@@ -71,6 +45,8 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   bench::SweepRequest request;
   request.suite = arguments.folders.empty() ? bench::find_suite(arguments.suite) : nullptr;
   request.folders = arguments.folders;
+  request.archive = arguments.archive;
+  request.random_seeds = arguments.random_seeds;
   request.map = arguments.map;
   request.robots = arguments.robots;
   for (const std::string& text : arguments.ssi) request.ssi_s.push_back(parse_ssi(text).value_or(0));
@@ -172,7 +148,7 @@ int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, 
       std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished; });
   if (arguments.json) {
     print(bench::result_json(entries, suite, sweep.run_uuid(), database, finished));
-  } else if (flags.format.empty()) {
+  } else if (flags.format.empty() && !arguments.quiet) {
     print(bench::result_table(entries));
   }
   if (sweep.error()) return fail(*sweep.error());
@@ -184,6 +160,7 @@ int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, 
     return fail(kSignalExitBase + bench::interrupted_by(),
                 "stopped before its end; the same command with --resume does the rest");
   }
+  if (arguments.when_finished) return arguments.when_finished(database, sweep.run_uuid());
   diagnose(next_commands(arguments, sweep.run_uuid()));
   return kSuccess;
 }
@@ -235,6 +212,8 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   return report(arguments, flags, sweep, info.suite, path.string());
 }
 
+}  // namespace
+
 int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_flags) {
   BenchArguments arguments = given;
   if (arguments.repetitions > 1) {
@@ -275,6 +254,8 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   return run_sweep(arguments, *flags, std::move(*cases));
 }
 
+namespace {
+
 std::string suite_names() {
   std::string text;
   for (const bench::Suite& suite : bench::suites()) {
@@ -284,13 +265,15 @@ std::string suite_names() {
 }
 
 void add_flags(CLI::App& command, BenchArguments& arguments) {
-  CLI::Option* suite = command.add_option("--suite", arguments.suite, suite_names())
-                           ->check([](const std::string& text) {
-                             return bench::find_suite(text) != nullptr
-                                        ? std::string()
-                                        : in_quotes(text) + ", expected smoke, gate, density or paper";
-                           })
-                           ->capture_default_str();
+  CLI::Option* suite =
+      command.add_option("--suite", arguments.suite, suite_names())
+          ->check([](const std::string& text) {
+            return bench::find_suite(text) != nullptr
+                       ? std::string()
+                       : in_quotes(text) +
+                             ", expected smoke, gate, density, paper, paper-quick or adversarial";
+          })
+          ->capture_default_str();
   CLI::Option* folders =
       command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
           ->excludes(suite)
@@ -352,10 +335,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--shard", arguments.shard,
                   "only part I of N of the cases; `sipplab merge` joins the histories")
-      ->check([](const std::string& text) {
-        return bench::parse_shard(text) ? std::string()
-                                        : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
-      })
+      ->check(check_shard)
       ->type_name("I/N");
   command.add_flag("--resume", arguments.resume, "do only what is missing of a run that was stopped");
   add_database_flag(command, arguments.database);

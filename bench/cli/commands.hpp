@@ -23,6 +23,7 @@ Command add_plan_command(CLI::App& program);
 Command add_validate_command(CLI::App& program);
 Command add_generate_command(CLI::App& program);
 Command add_bench_command(CLI::App& program, const Invocation& invocation);
+Command add_reproduce_command(CLI::App& program, const Invocation& invocation);
 Command add_runs_command(CLI::App& program);
 Command add_show_command(CLI::App& program);
 Command add_sql_command(CLI::App& program);

@@ -56,7 +56,7 @@ int parse_and_run(int argc, char** argv) {
       add_compare_command(program),  add_gate_command(program),
       add_trend_command(program),    add_merge_command(program),
       add_doctor_command(program),   add_import_command(program),
-      add_report_command(program),
+      add_report_command(program),   add_reproduce_command(program, invocation_of(argc, argv)),
   };
   try {
     program.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bench/cli/console.hpp"
+#include "bench/sweep/shard.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
@@ -29,6 +30,11 @@ std::string check_reschedule(const std::string& text) {
 
 std::string check_order(const std::string& text) {
   return parse_initial_order(text) ? "" : expected(text, kOrderNames);
+}
+
+std::string check_shard(const std::string& text) {
+  return bench::parse_shard(text) ? std::string()
+                                  : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
 }
 
 double parse_time_limit_s(std::string_view text) {

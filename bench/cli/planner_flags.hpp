@@ -57,6 +57,8 @@ std::string check_order(const std::string& text);
 /// A number of seconds > 0, or "inf".
 std::string check_time_limit(const std::string& text);
 std::string check_positive_real(const std::string& text);
+/// "2/8".
+std::string check_shard(const std::string& text);
 
 /// REQUIRES: check_time_limit(text) is empty.
 double parse_time_limit_s(std::string_view text);

@@ -1,6 +1,8 @@
 #include "bench/sweep/expand.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -27,6 +29,7 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
     block.planners.clear();
     for (const int k : request.connectedness) block.planners.push_back({any_angle, k});
   }
+  if (request.random_seeds) block.random_seeds = *request.random_seeds;
   if (request.any_angle) {
     for (PlannerMode& planner : block.planners) planner.any_angle = *request.any_angle;
   }
@@ -87,6 +90,25 @@ class Expansion {
     return add_set(std::move(*set));
   }
 
+  /// The set of the archive for a map and a number of robots, read when it is first asked
+  /// for; none where the archive has no such folder.
+  Expected<std::optional<std::size_t>, std::string> archived_set(const std::string& map, std::size_t robots,
+                                                                 std::uint64_t count) {
+    const std::filesystem::path folder =
+        std::filesystem::path(*request_.archive) / map.substr(0, map.find(':')) / std::to_string(robots);
+    for (const auto& [read, set] : archived_) {
+      if (read == folder) return std::optional(set);
+    }
+    if (!std::filesystem::is_directory(folder) || std::filesystem::is_empty(folder)) {
+      return std::optional<std::size_t>();
+    }
+    Expected<std::vector<InstanceSet>, std::string> sets = load_sets(folder.string(), {robots}, count);
+    if (!sets) return Unexpected{sets.error()};
+    if (sets->empty()) return std::optional<std::size_t>();
+    archived_.emplace_back(folder, add_set(std::move(sets->front())));
+    return std::optional(archived_.back().second);
+  }
+
   ExpandedSweep take() { return std::move(sweep_); }
 
  private:
@@ -110,6 +132,7 @@ class Expansion {
   ExpandedSweep sweep_;
   std::set<std::string> names_;
   std::vector<std::pair<std::string, std::size_t>> generated_;
+  std::vector<std::pair<std::filesystem::path, std::size_t>> archived_;
 };
 
 Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request) {
@@ -164,8 +187,14 @@ Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
   for (const SuiteBlock& original : suite.blocks) {
     const SuiteBlock block = replaced(original, request);
     for (const std::size_t robots : block.robots) {
-      const Expected<std::size_t, std::string> set =
-          expansion.generated_set(block.map, robots, request.count.value_or(suite.instances));
+      const std::uint64_t count = request.count.value_or(suite.instances);
+      if (request.archive) {
+        const auto set = expansion.archived_set(block.map, robots, count);
+        if (!set) return Unexpected{set.error()};
+        if (*set) expansion.add_cases(block, **set, limits_of(request));
+        continue;
+      }
+      const Expected<std::size_t, std::string> set = expansion.generated_set(block.map, robots, count);
       if (!set) return Unexpected{set.error()};
       expansion.add_cases(block, *set, limits_of(request));
     }

@@ -16,8 +16,13 @@ namespace sipplab::bench {
 /// A suite or folders of instances, and what replaces dimensions of the suite. Empty
 /// lists and options leave the suite's own.
 struct SweepRequest {
-  const Suite* suite = nullptr;      ///< none where folders are given
-  std::vector<std::string> folders;  ///< planned with PlannerOptions' defaults unless replaced
+  const Suite* suite = nullptr;  ///< none where folders are given
+  /// A folder with empty/N/ and warehouse/N/, as the archive of AAMAS 2018 has them: the
+  /// suite's instances are read from there instead of being generated. Cells that it lacks
+  /// are left out.
+  std::optional<std::string> archive;
+  std::optional<std::uint64_t> random_seeds;  ///< instead of the suite's, where something is random
+  std::vector<std::string> folders;           ///< planned with PlannerOptions' defaults unless replaced
   std::optional<std::string> map;
   std::vector<std::size_t> robots;
   std::vector<double> ssi_s;

@@ -1,0 +1,53 @@
+// A sweep as the command line asks for it, for every command that starts one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/external/command_planner.hpp"
+
+namespace sipplab::cli {
+
+/// Texts are as the user wrote them, checked when the command line was read. What is empty
+/// leaves the suite's own.
+struct BenchArguments {
+  std::string suite = "density";
+  std::vector<std::string> folders;
+  std::optional<std::string> archive;  ///< as SweepRequest::archive
+  std::optional<std::uint64_t> random_seeds;
+  std::optional<std::string> map;
+  std::vector<std::size_t> robots;
+  std::vector<std::string> ssi;
+  std::vector<std::string> reschedule;
+  std::vector<std::string> order;
+  std::vector<int> connectedness;
+  std::optional<bool> any_angle;
+  std::optional<std::uint64_t> count;
+  std::optional<std::string> time_limit;
+  std::optional<std::uint64_t> max_expansions;
+  std::optional<std::uint64_t> max_restarts;
+  std::uint64_t seed = 1;
+  std::int64_t repetitions = 1;
+  std::optional<std::string> planner;
+  std::string planner_name;
+  std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
+  std::optional<std::string> rounding;
+  std::optional<std::string> shard;
+  bool resume = false;
+  std::optional<std::string> database;
+  bool json = false;
+  bool quiet = false;  ///< no table of the cases
+  Invocation invocation;
+  /// Called with the run once all of it is in the history; returns the exit code.
+  std::function<int(const std::filesystem::path& database, const std::string& run)> when_finished;
+};
+
+/// Runs the sweep, records it, and reports. Returns the exit code.
+int run_bench(const BenchArguments& arguments, std::vector<std::string> benchmark_flags);
+
+}  // namespace sipplab::cli

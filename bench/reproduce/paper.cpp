@@ -1,0 +1,353 @@
+#include "bench/reproduce/paper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "bench/report/numbers.hpp"
+#include "db/queries.hpp"
+#include "property_tests/support/rate.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// Runs of one instance are averaged first: seeds of random re-scheduling that never had to
+/// re-schedule are one observation, not ten.
+constexpr const char* kCellsSql =
+    "WITH instance AS ("
+    "  SELECT CASE WHEN instr(environment, '/') > 0 THEN substr(environment, instr(environment, '/') + 1)"
+    "    ELSE environment END AS environment, robots, ssi_s, reschedule, initial_order, position,"
+    "    count(*) AS runs, sum(status = 'solved') AS solved, sum(planning_time_s) AS seconds,"
+    "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
+    "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
+    "  FROM v_results WHERE run = :run GROUP BY 1, 2, 3, 4, 5, 6) "
+    "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs), sum(solved), sum(seconds) / "
+    "sum(runs),"
+    "  sum(makespan_s) / sum(solved), sum(flowtime_s) / sum(solved), sum(solved > 0),"
+    "  avg(makespan_s / solved), avg(makespan_s / solved * makespan_s / solved),"
+    "  avg(flowtime_s / solved), avg(flowtime_s / solved * flowtime_s / solved) "
+    "FROM instance GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 4, 5, 3, 2";
+
+double real(const db::Value& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  const auto* number = std::get_if<double>(&value);
+  return number == nullptr ? 0 : *number;
+}
+
+std::optional<double> optional_real(const db::Value& value) {
+  if (std::holds_alternative<db::Null>(value)) return std::nullopt;
+  return real(value);
+}
+
+/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960); within 0.4 %
+/// from four degrees of freedom on.
+double t_quantile(double freedom) {
+  constexpr double z = 1.959964;
+  constexpr double z3 = z * z * z;
+  constexpr double z5 = z3 * z * z;
+  return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
+}
+
+/// Half the width of a 95 % interval, from the means of values and of their squares.
+double error_of_mean(const db::Value& mean, const db::Value& mean_square, std::int64_t count) {
+  constexpr std::int64_t kFewest = 5;  // of fewer a variance says next to nothing
+  if (count < kFewest) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(count);
+  const double variance = std::max(0.0, real(mean_square) - real(mean) * real(mean)) * n / (n - 1);
+  return t_quantile(n - 1) * std::sqrt(variance / n);
+}
+
+/// The cells of one method, found by robots and start-safe interval.
+class Cells {
+ public:
+  explicit Cells(const std::vector<MeasuredCell>& cells) : cells_(cells) {}
+
+  const MeasuredCell* find(std::string_view environment, std::string_view reschedule, std::string_view order,
+                           std::int64_t robots, double ssi_s) const {
+    const auto found = std::find_if(cells_.begin(), cells_.end(), [&](const MeasuredCell& cell) {
+      return cell.environment == environment && cell.reschedule == reschedule && cell.order == order &&
+             cell.robots == robots && cell.ssi_s == ssi_s;
+    });
+    return found == cells_.end() ? nullptr : &*found;
+  }
+  /// Figure 1.
+  const MeasuredCell* figure(std::int64_t robots, double ssi_s) const {
+    return find("empty", "none", "shortest", robots, ssi_s);
+  }
+  /// Table 1.
+  const MeasuredCell* table(std::string_view reschedule, std::int64_t robots,
+                            std::string_view order = "shortest") const {
+    constexpr double kTableSsiS = 5;
+    return find("warehouse", reschedule, order, robots, kTableSsiS);
+  }
+
+ private:
+  const std::vector<MeasuredCell>& cells_;
+};
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr std::int64_t kFigureRobots[] = {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320};
+constexpr double kFigureSsiS[] = {1, 3, 5, 7, 9};
+constexpr std::int64_t kTableRobots[] = {16, 32, 64, 96, 128, 160, 192};
+/// From so many robots on orders have to be changed, in most instances of the warehouse.
+constexpr std::int64_t kDense = 96;
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+Claim over_80_percent(const Cells& cells) {
+  Claim claim{
+      "fig1-a", "empty, 192 robots: over 80 % solved with a start-safe interval of 3 or more", {}, ""};
+  for (const double ssi_s : kFigureSsiS) {
+    const MeasuredCell* cell = ssi_s >= 3 ? cells.figure(192, ssi_s) : nullptr;
+    if (cell == nullptr) continue;
+    claim.holds = claim.holds.value_or(true) && cell->success() > 0.8;
+    claim.figures += fmt::format("{}ssi {}: {}", claim.figures.empty() ? "" : ", ", ssi_text(ssi_s),
+                                 percent(cell->success()));
+  }
+  return claim;
+}
+
+Claim none_without(const Cells& cells) {
+  Claim claim{"fig1-b", "empty, 192 robots: none solved without start-safe intervals", {}, ""};
+  if (const MeasuredCell* cell = cells.figure(192, 0)) {
+    claim.holds = cell->solved == 0;
+    claim.figures = percent(cell->success());
+  }
+  return claim;
+}
+
+Claim rises_with_interval(const Cells& cells) {
+  Claim claim{"fig1-c", "a start-safe interval lifts success, and more so with more than 64 robots", {}, ""};
+  double few = 0, many = 0;
+  int few_count = 0, many_count = 0;
+  for (const std::int64_t robots : kFigureRobots) {
+    const MeasuredCell* without = cells.figure(robots, 0);
+    const MeasuredCell* with = cells.figure(robots, 5);
+    if (without == nullptr || with == nullptr || with->solved == 0) continue;  // hopeless with both
+    (robots > 64 ? many : few) += with->success() - without->success();
+    ++(robots > 64 ? many_count : few_count);
+  }
+  if (few_count == 0 || many_count == 0) return claim;
+  few /= few_count;
+  many /= many_count;
+  claim.holds = many > 0 && many > few;
+  claim.figures =
+      fmt::format("ssi 5 over 0: {:+.0f} points up to 64 robots, {:+.0f} beyond", 100 * few, 100 * many);
+  return claim;
+}
+
+Claim infinity_is_worst(const Cells& cells) {
+  Claim claim{"fig1-d", "an infinite start-safe interval is the worst choice", {}, ""};
+  double infinite = 0, least = 0;
+  double least_ssi_s = 0;
+  int counted = 0;
+  std::vector<std::pair<double, double>> sums;  // ssi, success over the same densities
+  for (const double ssi_s : kFigureSsiS) {
+    double sum = 0, sum_infinite = 0;
+    int count = 0;
+    for (const std::int64_t robots : kFigureRobots) {
+      const MeasuredCell* cell = cells.figure(robots, ssi_s);
+      const MeasuredCell* endless = cells.figure(robots, kInfinite);
+      if (cell == nullptr || endless == nullptr) continue;
+      sum += cell->success();
+      sum_infinite += endless->success();
+      ++count;
+    }
+    if (count == 0) continue;
+    if (counted++ == 0 || sum / count < least) {
+      least = sum / count;
+      least_ssi_s = ssi_s;
+      infinite = sum_infinite / count;
+    }
+  }
+  if (counted == 0) return claim;
+  claim.holds = infinite < least;
+  claim.figures = fmt::format("{} over all densities, next worst {} with ssi {}", percent(infinite),
+                              percent(least), ssi_text(least_ssi_s));
+  return claim;
+}
+
+Claim falls_at_once(const Cells& cells) {
+  Claim claim{"tab1-a", "warehouse: success falls at once, 160 robots solved, 192 not", {}, ""};
+  const MeasuredCell* before = cells.table("deterministic", 160);
+  const MeasuredCell* after = cells.table("deterministic", 192);
+  if (before == nullptr || after == nullptr) return claim;
+  claim.holds = before->success() > 0.9 && after->success() < 0.1;
+  claim.figures =
+      fmt::format("160 robots {}, 192 robots {}", percent(before->success()), percent(after->success()));
+  return claim;
+}
+
+Claim solves_where_random_fails(const Cells& cells) {
+  Claim claim{
+      "tab1-b", "160 robots: deterministic re-scheduling solves almost all, random under half", {}, ""};
+  const MeasuredCell* ours = cells.table("deterministic", 160);
+  const MeasuredCell* random = cells.table("random", 160);
+  if (ours == nullptr || random == nullptr) return claim;
+  claim.holds = ours->success() > 0.95 && random->success() < 0.5;
+  claim.figures =
+      fmt::format("deterministic {}, random {}", percent(ours->success()), percent(random->success()));
+  return claim;
+}
+
+/// A claim on deterministic against random re-scheduling at every measured density from
+/// kDense on at which both solve at least `least_success`; `ratio` gives deterministic over random.
+template <class Ratio, class Judge>
+Claim at_dense_cells(Claim claim, const Cells& cells, double least_success, const Ratio& ratio,
+                     const Judge& judge) {
+  for (const std::int64_t robots : kTableRobots) {
+    const MeasuredCell* ours = cells.table("deterministic", robots);
+    const MeasuredCell* random = cells.table("random", robots);
+    if (robots < kDense || ours == nullptr || random == nullptr) continue;
+    if (std::min(ours->success(), random->success()) < least_success) continue;
+    const double value = ratio(*ours, *random);
+    claim.holds = claim.holds.value_or(true) && judge(value);
+    claim.figures +=
+        fmt::format("{}{} robots: {:.3f} of random's", claim.figures.empty() ? "" : ", ", robots, value);
+  }
+  return claim;
+}
+
+/// Where one solves fewer, it solves the easier ones, and means say nothing of the two.
+constexpr double kBothSolve = 0.9;
+
+Claim is_faster(const Cells& cells) {
+  return at_dense_cells(
+      {"tab1-c", "deterministic re-scheduling is faster where orders have to be changed", {}, ""}, cells,
+      0.01, [](const auto& ours, const auto& random) { return ours.mean_seconds / random.mean_seconds; },
+      [](double ratio) { return ratio < 1; });
+}
+
+Claim flowtime_is_better(const Cells& cells) {
+  return at_dense_cells(
+      {"tab1-d", "its flowtime is the same or slightly less", {}, ""}, cells, kBothSolve,
+      [](const auto& ours, const auto& random) { return *ours.mean_flowtime_s / *random.mean_flowtime_s; },
+      [](double ratio) { return ratio < 1 + kFlowtimeShare; });
+}
+
+Claim makespan_is_worse(const Cells& cells) {
+  return at_dense_cells(
+      {"tab1-e", "its makespan goes up", {}, ""}, cells, kBothSolve,
+      [](const auto& ours, const auto& random) { return *ours.mean_makespan_s / *random.mean_makespan_s; },
+      [](double ratio) { return ratio > 1; });
+}
+
+Claim longest_first_for_makespan(const Cells& cells) {
+  Claim claim{
+      "tab1-f", "longest first with random re-scheduling is the alternative where makespan matters", {}, ""};
+  for (const std::int64_t robots : kTableRobots) {
+    const MeasuredCell* shortest = cells.table("deterministic", robots);
+    const MeasuredCell* longest = cells.table("random", robots, "longest");
+    if (shortest == nullptr || longest == nullptr || shortest->solved == 0 || longest->solved == 0) continue;
+    claim.holds = claim.holds.value_or(true) && *longest->mean_makespan_s < *shortest->mean_makespan_s;
+    claim.figures += fmt::format("{}{} robots: {:.1f} s against {:.1f} s", claim.figures.empty() ? "" : ", ",
+                                 robots, *longest->mean_makespan_s, *shortest->mean_makespan_s);
+  }
+  return claim;
+}
+
+Standing cost_standing(const std::optional<double>& measured, double error,
+                       const std::optional<double>& paper, double share) {
+  if (!measured || !paper) return Standing::kNotMeasured;
+  if (std::abs(*measured - *paper) <= std::max(share * *paper, error)) return Standing::kReproduced;
+  return *measured < *paper ? Standing::kBetter : Standing::kDiffers;
+}
+
+Standing success_standing(const MeasuredCell& cell, double paper) {
+  const ConfidenceInterval interval = wilson_interval(cell.solved, cell.runs);
+  if (interval.low <= paper && paper <= interval.high) return Standing::kReproduced;
+  return cell.success() > paper ? Standing::kBetter : Standing::kDiffers;
+}
+
+}  // namespace
+
+db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
+                                                     const std::string& run) {
+  const auto table = db::run_sql(database, kCellsSql, {{"run", run}});
+  if (!table) return Unexpected{table.error()};
+  std::vector<MeasuredCell> cells;
+  for (const auto& row : table->rows) {
+    MeasuredCell cell;
+    cell.environment = std::get<std::string>(row[0]);
+    if (cell.environment != "empty" && cell.environment != "warehouse") continue;
+    cell.robots = std::get<std::int64_t>(row[1]);
+    cell.ssi_s = real(row[2]);
+    cell.reschedule = std::get<std::string>(row[3]);
+    cell.order = std::get<std::string>(row[4]);
+    cell.runs = std::get<std::int64_t>(row[5]);
+    cell.solved = std::get<std::int64_t>(row[6]);
+    cell.mean_seconds = real(row[7]);
+    cell.mean_makespan_s = optional_real(row[8]);
+    cell.mean_flowtime_s = optional_real(row[9]);
+    const std::int64_t instances = std::get<std::int64_t>(row[10]);
+    cell.makespan_error_s = error_of_mean(row[11], row[12], instances);
+    cell.flowtime_error_s = error_of_mean(row[13], row[14], instances);
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+const std::vector<PaperRow>& paper_table() {
+  static const std::vector<PaperRow> rows = {{16, "random", 1.00, 0.01, 33.31, 285.15},
+                                             {32, "random", 1.00, 0.04, 36.68, 591.30},
+                                             {64, "random", 1.00, 0.22, 41.25, 1274.94},
+                                             {96, "random", 1.00, 0.68, 50.05, 2212.14},
+                                             {128, "random", 1.00, 5.73, 62.23, 3543.92},
+                                             {160, "random", 0.42, 117.82, 79.73, 5220.90},
+                                             {192, "random", 0.00},
+                                             {16, "deterministic", 1.00, 0.01, 33.31, 285.15},
+                                             {32, "deterministic", 1.00, 0.04, 36.68, 591.30},
+                                             {64, "deterministic", 1.00, 0.17, 42.05, 1252.82},
+                                             {96, "deterministic", 1.00, 0.49, 50.42, 2149.31},
+                                             {128, "deterministic", 1.00, 1.40, 66.15, 3322.52},
+                                             {160, "deterministic", 0.99, 28.28, 100.50, 5298.85},
+                                             {192, "deterministic", 0.00}};
+  return rows;
+}
+
+std::string_view name(Standing standing) {
+  switch (standing) {
+    case Standing::kReproduced:
+      return "reproduced";
+    case Standing::kBetter:
+      return "better";
+    case Standing::kDiffers:
+      return "differs";
+    case Standing::kNotMeasured:
+      break;
+  }
+  return "";
+}
+
+std::vector<TableLine> compare_with_table(const std::vector<MeasuredCell>& cells) {
+  const Cells found(cells);
+  std::vector<TableLine> lines;
+  for (const PaperRow& paper : paper_table()) {
+    TableLine line{paper, {}};
+    if (const MeasuredCell* cell = found.table(paper.reschedule, paper.robots)) {
+      line.measured = *cell;
+      line.success = success_standing(*cell, paper.success);
+      line.makespan =
+          cost_standing(cell->mean_makespan_s, cell->makespan_error_s, paper.makespan_s, kMakespanShare);
+      line.flowtime =
+          cost_standing(cell->mean_flowtime_s, cell->flowtime_error_s, paper.flowtime_s, kFlowtimeShare);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::vector<Claim> check_claims(const std::vector<MeasuredCell>& measured) {
+  const Cells cells(measured);
+  return {over_80_percent(cells),     none_without(cells),
+          rises_with_interval(cells), infinity_is_worst(cells),
+          falls_at_once(cells),       solves_where_random_fails(cells),
+          is_faster(cells),           flowtime_is_better(cells),
+          makespan_is_worse(cells),   longest_first_for_makespan(cells)};
+}
+
+}  // namespace sipplab::bench

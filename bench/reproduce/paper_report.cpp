@@ -1,0 +1,180 @@
+#include "bench/reproduce/paper_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bench/report/numbers.hpp"
+#include "bench/report/style.hpp"
+#include "db/aligned.hpp"
+#include "property_tests/support/rate.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+/// A table in words, for both forms.
+struct Words {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+std::string cost_words(const std::optional<double>& measured, double error,
+                       const std::optional<double>& paper, Standing standing) {
+  if (!measured) return paper ? fmt::format("- (paper {:.2f})", *paper) : "-";
+  const std::string ours = std::isfinite(error) ? fmt::format("{:.2f} +-{:.2f}", *measured, error)
+                                                : fmt::format("{:.2f}", *measured);
+  return paper ? fmt::format("{} ({:.2f}) {}", ours, *paper, name(standing)) : ours;
+}
+
+std::string success_words(const TableLine& line) {
+  const ConfidenceInterval interval = wilson_interval(line.measured->solved, line.measured->runs);
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}] ({:.2f}) {}", line.measured->success(), interval.low,
+                     interval.high, line.paper.success, name(line.success));
+}
+
+Words table_words(const std::vector<MeasuredCell>& cells) {
+  Words words{{"robots", "re-scheduling", "runs", "success", "seconds", "makespan [s]", "flowtime [s]"}, {}};
+  for (const TableLine& line : compare_with_table(cells)) {
+    std::vector<std::string> row = {std::to_string(line.paper.robots), line.paper.reschedule};
+    if (!line.measured) {
+      row.insert(row.end(), {"0", "not measured", "", "", ""});
+    } else {
+      const MeasuredCell& cell = *line.measured;
+      row.insert(
+          row.end(),
+          {std::to_string(cell.runs), success_words(line),
+           fmt::format("{:.4f}{}", cell.mean_seconds,
+                       line.paper.seconds ? fmt::format(" ({:.2f})", *line.paper.seconds) : ""),
+           cost_words(cell.mean_makespan_s, cell.makespan_error_s, line.paper.makespan_s, line.makespan),
+           cost_words(cell.mean_flowtime_s, cell.flowtime_error_s, line.paper.flowtime_s, line.flowtime)});
+    }
+    words.rows.push_back(std::move(row));
+  }
+  return words;
+}
+
+Words claim_words(const std::vector<MeasuredCell>& cells) {
+  Words words{{"claim", "", "sentence", "figures"}, {}};
+  for (const Claim& claim : check_claims(cells)) {
+    const char* verdict = !claim.holds ? "not measured" : *claim.holds ? "holds" : "FAILS";
+    words.rows.push_back({claim.id, verdict, claim.sentence, claim.figures});
+  }
+  return words;
+}
+
+/// Success of Figure 1, a row for each number of robots.
+Words figure_words(const std::vector<MeasuredCell>& cells) {
+  std::set<double> intervals;
+  std::map<std::int64_t, std::map<double, double>> rates;
+  for (const MeasuredCell& cell : cells) {
+    if (cell.environment != "empty" || cell.reschedule != "none" || cell.order != "shortest") continue;
+    intervals.insert(cell.ssi_s);
+    rates[cell.robots][cell.ssi_s] = cell.success();
+  }
+  Words words{{"robots"}, {}};
+  for (const double ssi_s : intervals) words.columns.push_back("ssi " + ssi_text(ssi_s));
+  for (const auto& [robots, by_interval] : rates) {
+    std::vector<std::string> row = {std::to_string(robots)};
+    for (const double ssi_s : intervals) {
+      const auto rate = by_interval.find(ssi_s);
+      row.push_back(rate == by_interval.end() ? "" : fmt::format("{:.2f}", rate->second));
+    }
+    words.rows.push_back(std::move(row));
+  }
+  return words;
+}
+
+/// Characters of a cell that stays on one line.
+constexpr std::size_t kLongestUnwrapped = 60;
+
+std::string html_table(const Words& words) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (const std::string& column : words.columns) html += "<th>" + xml_escaped(column) + "</th>";
+  html += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : words.rows) {
+    html += "<tr>";
+    for (const std::string& cell : row) {
+      const bool good = cell.ends_with(" reproduced") || cell.ends_with(" better") || cell == "holds";
+      const bool bad = cell.ends_with(" differs") || cell == "FAILS";
+      const bool long_words = cell.size() > kLongestUnwrapped && !good && !bad;
+      html += fmt::format("<td class=\"{}\">{}</td>",
+                          bad          ? "bad"
+                          : good       ? "good"
+                          : long_words ? "wrap"
+                                       : "",
+                          xml_escaped(cell));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table></div>\n";
+}
+
+constexpr const char* kLegend =
+    "In brackets: the paper. Success with its 95 % interval, makespan and flowtime over solved runs with "
+    "that of "
+    "their mean. Seconds are of another machine there and judge nothing.";
+
+}  // namespace
+
+std::string reproduction_text(const std::vector<MeasuredCell>& cells) {
+  const auto table = [](const char* title, const Words& words) {
+    return fmt::format("{}\n\n{}\n", title,
+                       db::align(words.columns, words.rows, std::vector<bool>(words.columns.size(), false)));
+  };
+  return table("Figure 1: share solved, empty map, no re-scheduling", figure_words(cells)) +
+         table("Table 1: warehouse, start-safe interval 5, shortest first", table_words(cells)) + kLegend +
+         "\n\n" + table("What the paper says", claim_words(cells));
+}
+
+Chart figure_chart(const std::vector<MeasuredCell>& cells) {
+  Chart chart;
+  chart.title = "empty 32 x 32, no re-scheduling";
+  chart.x_label = "robots";
+  chart.y_label = "share of instances solved";
+  chart.y_min = 0;
+  chart.y_max = 1;
+  std::map<double, ChartLine> lines;
+  std::set<double> robots;
+  for (const MeasuredCell& cell : cells) {
+    if (cell.environment != "empty" || cell.reschedule != "none" || cell.order != "shortest") continue;
+    lines[cell.ssi_s].points.emplace_back(static_cast<double>(cell.robots), cell.success());
+    robots.insert(static_cast<double>(cell.robots));
+  }
+  int colour = 0;
+  for (auto& [ssi_s, line] : lines) {
+    line.label = "ssi " + ssi_text(ssi_s);
+    line.colour = colour++;
+    std::sort(line.points.begin(), line.points.end());
+    chart.lines.push_back(std::move(line));
+  }
+  for (const double count : robots) chart.x_ticks.emplace_back(count, fmt::format("{:.0f}", count));
+  return chart;
+}
+
+std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source) {
+  std::string page = page_head("AAMAS 2018, reproduced");
+  page += "<h1>Andreychuk and Yakovlev (AAMAS 2018), reproduced</h1>\n<p class=\"note\">" +
+          xml_escaped(source) + "</p>\n";
+  page += "<h2>What the paper says</h2>\n" + html_table(claim_words(cells));
+  page += "<h2>Figure 1: start-safe intervals</h2>\n<div class=\"charts\">" +
+          svg(figure_chart(cells), SvgUse::kInline) + "</div>\n" + html_table(figure_words(cells));
+  page += "<h2>Table 1: deterministic and random re-scheduling</h2>\n" + html_table(table_words(cells));
+  page += fmt::format("<p class=\"note\">{}</p>\n", kLegend);
+  return page + "</body>\n</html>\n";
+}
+
+bool is_reproduced(const std::vector<MeasuredCell>& cells) {
+  for (const TableLine& line : compare_with_table(cells)) {
+    for (const Standing standing : {line.success, line.makespan, line.flowtime}) {
+      if (standing == Standing::kDiffers) return false;
+    }
+  }
+  const std::vector<Claim> claims = check_claims(cells);
+  return std::all_of(claims.begin(), claims.end(),
+                     [](const Claim& claim) { return claim.holds.value_or(true); });
+}
+
+}  // namespace sipplab::bench

@@ -1,0 +1,25 @@
+// The reproduction for people: tables as text, and one page with the figure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/report/chart.hpp"
+#include "bench/reproduce/paper.hpp"
+
+namespace sipplab::bench {
+
+/// Table 1 beside the paper's, and each claim with its verdict.
+std::string reproduction_text(const std::vector<MeasuredCell>& cells);
+
+/// Success over the number of robots, one line for each start-safe interval.
+Chart figure_chart(const std::vector<MeasuredCell>& cells);
+
+/// An HTML page that needs nothing else; `source` says which run of which build it shows.
+std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source);
+
+/// Whether nothing that was measured differs from the paper and every claim that could be
+/// checked holds.
+bool is_reproduced(const std::vector<MeasuredCell>& cells);
+
+}  // namespace sipplab::bench

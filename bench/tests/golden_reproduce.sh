@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# A golden run of `sipplab reproduce`: a few cells, generated and from an archive, taken up again,
+# judged later, and as a page. Prints one line per promise that is broken.
+#
+#   golden_reproduce.sh PATH_OF_SIPPLAB
+set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
+
+sipplab=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+ask() { sqlite3 sipplab.db "$1"; }
+
+# 0 or 1: so few instances may differ from the paper's.
+verdict() {
+  "$sipplab" reproduce aamas2018 "$@" >out 2>err
+  local code=$?
+  [ "$code" -le 1 ] || complain "exit code $code: reproduce $* ($(head -c 300 err))"
+}
+
+verdict --quick --count 2 --robots 32 --repeats 1 -o page
+says '^Figure 1: share solved'
+says '^32 +1\.00 +1\.00 +1\.00 +1\.00 +1\.00 *$'
+says '^32 +deterministic +2 +1\.000 \[0\.342, 1\.000\] \(1\.00\) reproduced'
+says '^16 +deterministic +0 +not measured'
+says '^fig1-a +not measured'
+equal "$(ask "SELECT suite, count(*) FROM v_results JOIN v_runs ON v_runs.run = v_results.run GROUP BY suite")" \
+  'paper-quick|16' 'what was planned'
+grep -q '<svg' page/index.html || complain 'no figure on the page'
+grep -q '<svg' page/figure1.svg || complain 'no figure1.svg'
+cp out first
+verdict --run latest
+cmp -s out first || complain 'judged later, the run says something else'
+verdict --quick --count 2 --robots 32 --repeats 1 --resume
+says 'no unfinished run' err
+
+# The archive's files: a folder for each map and number of robots; what it lacks is left out.
+mkdir -p archive/warehouse archive/empty/64
+expect 0 generate --map warehouse --agents 32 --count 3 --seed 3 -o archive/warehouse/32
+verdict --quick --instances archive --count 2 --repeats 1
+says '^32 +random +2 '
+equal "$(ask "SELECT count(*), count(DISTINCT environment) FROM v_results WHERE instance_set LIKE '%archive%'")" '6|1' \
+  'instances of the archive'
+
+refused "expected I/N" reproduce aamas2018 --shard 3
+refused "nowhere" reproduce aamas2018 --instances nowhere
+expect 0 bench --suite smoke --robots 8 --map empty:9x9 --count 1
+
+[ "$broken" -eq 0 ] && echo "reproduce: everything as promised"
+exit "$((broken > 0))"
