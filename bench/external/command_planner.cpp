@@ -31,7 +31,7 @@ constexpr std::string_view kPrefix = "cmd:";
 /// Seconds beyond the limit, in which a planner that keeps it starts, reads and writes.
 constexpr double kGraceS = 1;
 /// MiB that the planner may write into one file, its log included.
-constexpr std::uint64_t kFileLimitMib = 1024;
+constexpr std::uint64_t kFileLimitMib = 256;
 /// Of a program's last words.
 constexpr std::size_t kMostWords = 200;
 /// A shell adds this to the signal that ended its command.

@@ -25,8 +25,25 @@ sweeps() {
 }
 # row NAME COLUMNS: of the first instance.
 row() { sqlite3 planners.db "SELECT $2 FROM v_results WHERE planner = 'cmd:$1' ORDER BY position LIMIT 1"; }
-# Nothing that a planner started is left.
-gone() { ! pgrep -f "sleep $1" >/dev/null || complain "a process that a planner left behind is still there: sleep $1"; }
+# running SECONDS: whether somebody sleeps for so long.
+running() {
+  local file
+  for file in /proc/[0-9]*/cmdline; do
+    [ "$(tr '\0' ' ' 2>/dev/null <"$file")" = "sleep $1 " ] && return 0
+  done
+  return 1
+}
+# Nothing that a planner started is left, a moment after it was killed.
+gone() {
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    running "$1" || return 0
+    sleep 0.2
+  done
+  complain "a process that a planner left behind is still there: sleep $1"
+}
+sleep 98760 &
+running 98760 || complain 'the test does not see processes'
+kill $!
 
 planner honest <<'E2'
 exec "$sipplab" plan --instance "$1" --config "$4" -o "$3"
