@@ -44,6 +44,7 @@ int write_page(const std::string& folder, const std::vector<bench::MeasuredCell>
   const std::pair<const char*, std::string> files[] = {
       {"index.html", bench::reproduction_page(cells, source)},
       {"figure1.svg", bench::svg(bench::figure_chart(cells), bench::SvgUse::kFile)},
+      {"table1.svg", bench::svg(bench::table_chart(cells), bench::SvgUse::kFile)},
   };
   for (const auto& [name, text] : files) {
     if (const auto failed = write_file((fs::path(folder) / name).string(), text)) {
@@ -128,7 +129,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
       ->type_name("I/N");
   command.add_flag("--resume", sweep.resume, "do only what is missing of a run that was stopped")
       ->excludes(recorded);
-  command.add_option("-o,--output", arguments.folder, "write index.html and figure1.svg there")
+  command.add_option("-o,--output", arguments.folder, "write index.html, figure1.svg and table1.svg there")
       ->type_name("DIR");
   add_database_flag(command, sweep.database);
 }

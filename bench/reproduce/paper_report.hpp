@@ -15,6 +15,10 @@ std::string reproduction_text(const std::vector<MeasuredCell>& cells);
 /// Success over the number of robots, one line for each start-safe interval.
 Chart figure_chart(const std::vector<MeasuredCell>& cells);
 
+/// Mean seconds over the number of robots in the warehouse, one line for each order and
+/// re-scheduling; dashed: the paper's, from another machine.
+Chart table_chart(const std::vector<MeasuredCell>& cells);
+
 /// An HTML page that needs nothing else; `source` says which run of which build it shows.
 std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source);
 

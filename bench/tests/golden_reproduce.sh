@@ -29,6 +29,7 @@ equal "$(ask "SELECT suite, count(*) FROM v_results JOIN v_runs ON v_runs.run = 
   'paper-quick|16' 'what was planned'
 grep -q '<svg' page/index.html || complain 'no figure on the page'
 grep -q '<svg' page/figure1.svg || complain 'no figure1.svg'
+grep -q '<svg' page/table1.svg || complain 'no table1.svg'
 cp out first
 verdict --run latest
 cmp -s out first || complain 'judged later, the run says something else'

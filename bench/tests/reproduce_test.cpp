@@ -82,6 +82,22 @@ TEST(Reproduction, WhatIsOutsideOfShareAndIntervalIsBetterOrDiffers) {
   EXPECT_EQ(line_of().success, Standing::kDiffers);
 }
 
+TEST(Reproduction, ChartsHoldEveryMeasuredCell) {
+  const auto cells = the_papers_cells();
+  const Chart figure = figure_chart(cells);
+  ASSERT_EQ(figure.lines.size(), 4u);  // start-safe intervals
+  EXPECT_EQ(figure.lines[0].points, (std::vector<std::pair<double, double>>{{64, 0.9}, {192, 0}}));
+  const Chart table = table_chart(cells);
+  ASSERT_EQ(table.lines.size(), 5u);  // three methods, two of them beside the paper's
+  EXPECT_EQ(table.lines[0].label, "deterministic, shortest");
+  EXPECT_EQ(table.lines[0].points.size(), 7u);
+  EXPECT_EQ(table.lines[1].label, "deterministic, shortest, paper");
+  EXPECT_TRUE(table.lines[1].dashed);
+  EXPECT_EQ(table.lines[1].colour, table.lines[0].colour);
+  EXPECT_EQ(table.lines[1].points[4], (std::pair<double, double>{128, 1.40}));
+  EXPECT_NE(table.lines[2].colour, table.lines[0].colour);
+}
+
 TEST(Reproduction, EachClaimCanFail) {
   const auto fails = [](const char* id, auto change) {
     auto cells = the_papers_cells();
