@@ -92,6 +92,27 @@ InstanceFiles files_of(std::string_view text) {
   return files;
 }
 
+/// Written in parts, the instance loads as it was and the options are the same.
+void check_parts(const Instance& instance, const PlannerOptions& options) {
+  static std::array<MemoryFile, 4> written;
+  InstanceFiles parts;
+  parts.task = written[0].hold(write_task_xml(instance));
+  parts.map = written[1].hold(write_map_xml(instance.map));
+  parts.config = written[2].hold(write_config_xml(options, "folder", "file"));
+  if (!instance.obstacles.empty()) parts.obstacles = written[3].hold(write_obstacles_xml(instance));
+  parts.allow_unreachable = true;
+  const auto joined = load_instance(parts);
+  fuzz::require(Claim::kReadsBackEqual, joined && joined->instance == instance,
+                "an instance in parts loads as another");
+  PlannerOptions again;
+  apply(joined->options, again);
+  fuzz::require(Claim::kReadsBackEqual,
+                again.any_angle == options.any_angle && again.connectedness == options.connectedness &&
+                    again.rescheduling == options.rescheduling && again.order == options.order &&
+                    again.ssi_s == options.ssi_s && again.time_limit_s == options.time_limit_s,
+                "a configuration reads as another");
+}
+
 void check_loaded(const LoadedInstance& loaded) {
   for (const std::string& warning : loaded.warnings) fuzz::check_warning(warning);
   fuzz::require(Claim::kReadsBackEqual, !find_error(loaded.instance), "an instance that breaks a rule");
@@ -107,6 +128,7 @@ void check_loaded(const LoadedInstance& loaded) {
   PlannerOptions options;
   apply(loaded.options, options);
   unplanned_features(loaded.options);
+  check_parts(loaded.instance, options);
   if (loaded.instance.map.cell_count() <= kMostCellsDrawn) draw_svg(loaded.instance, {});
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "planner/io/text_file.hpp"
+#include "planner/io/write_instance.hpp"
 
 namespace sipplab {
 namespace {
@@ -108,6 +109,31 @@ TEST_F(IoLoadInstance, AllInOneFile) {
   EXPECT_EQ(options.ssi_s, 2.5);
   EXPECT_EQ(options.connectedness, 4);
   EXPECT_FALSE(options.any_angle);
+}
+
+TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {
+  const Input<LoadedInstance> whole = load_instance(just(kData + "corridor.xml"));
+  ASSERT_TRUE(whole) << whole.error().message();
+  PlannerOptions options;
+  apply(whole->options, options);
+
+  InstanceFiles parts;
+  parts.task = write("task.xml", write_task_xml(whole->instance));
+  parts.map = write("map.xml", write_map_xml(whole->instance.map));
+  parts.config = write("config.xml", write_config_xml(options, "out", "plan.xml"));
+  parts.obstacles = write("obstacles.xml", write_obstacles_xml(whole->instance));
+  const Input<LoadedInstance> joined = load_instance(parts);
+  ASSERT_TRUE(joined) << joined.error().message();
+  EXPECT_TRUE(joined->warnings.empty()) << joined->warnings.front();
+  EXPECT_EQ(joined->instance, whole->instance);
+  PlannerOptions again;
+  apply(joined->options, again);
+  EXPECT_EQ(again.any_angle, options.any_angle);
+  EXPECT_EQ(again.connectedness, options.connectedness);
+  EXPECT_EQ(again.rescheduling, options.rescheduling);
+  EXPECT_EQ(again.order, options.order);
+  EXPECT_EQ(again.ssi_s, options.ssi_s);
+  EXPECT_EQ(again.time_limit_s, options.time_limit_s);
 }
 
 TEST_F(IoLoadInstance, OlderXmlOfTheArchive) {
