@@ -29,6 +29,7 @@ Command add_show_command(CLI::App& program);
 Command add_sql_command(CLI::App& program);
 Command add_trend_command(CLI::App& program);
 Command add_report_command(CLI::App& program);
+Command add_plot_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_doctor_command(CLI::App& program);

@@ -48,15 +48,25 @@ int parse_and_run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("sipplab ") + SIPPLAB_VERSION);
 
   const std::vector<Command> commands = {
-      add_plan_command(program),     add_validate_command(program),
-      add_generate_command(program), add_bench_command(program, invocation_of(argc, argv)),
-      add_runs_command(program),     add_show_command(program),
-      add_sql_command(program),      add_property_command(program, invocation_of(argc, argv)),
-      add_fuzz_command(program),     add_findings_command(program, invocation_of(argc, argv)),
-      add_compare_command(program),  add_gate_command(program),
-      add_trend_command(program),    add_merge_command(program),
-      add_doctor_command(program),   add_import_command(program),
-      add_report_command(program),   add_reproduce_command(program, invocation_of(argc, argv)),
+      add_plan_command(program),
+      add_validate_command(program),
+      add_generate_command(program),
+      add_bench_command(program, invocation_of(argc, argv)),
+      add_runs_command(program),
+      add_show_command(program),
+      add_sql_command(program),
+      add_property_command(program, invocation_of(argc, argv)),
+      add_fuzz_command(program),
+      add_findings_command(program, invocation_of(argc, argv)),
+      add_compare_command(program),
+      add_gate_command(program),
+      add_trend_command(program),
+      add_merge_command(program),
+      add_doctor_command(program),
+      add_import_command(program),
+      add_report_command(program),
+      add_plot_command(program),
+      add_reproduce_command(program, invocation_of(argc, argv)),
   };
   try {
     program.parse(argc, argv);

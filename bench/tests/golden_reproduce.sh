@@ -31,10 +31,27 @@ grep -q '<svg' page/index.html || complain 'no figure on the page'
 grep -q '<svg' page/figure1.svg || complain 'no figure1.svg'
 grep -q '<svg' page/table1.svg || complain 'no table1.svg'
 cp out first
+planned=$(ask "SELECT run FROM v_runs")
 verdict --run latest
 cmp -s out first || complain 'judged later, the run says something else'
 verdict --quick --count 2 --robots 32 --repeats 1 --resume
 says 'no unfinished run' err
+
+# The pictures alone, from the history.
+expect 0 plot figure1 -o figure1.svg
+cmp -s figure1.svg page/figure1.svg || complain 'plot figure1 draws another picture than the page'
+expect 0 plot table1 "$planned" -o table1.svg
+cmp -s table1.svg page/table1.svg || complain 'plot table1 draws another picture than the page'
+expect 0 plot figure1
+says '<svg'
+expect 0 plot runtime latest --case environment=warehouse --case reschedule=deterministic
+says '<svg'
+says 'warehouse, .*deterministic'
+refused 'expected no --case' plot figure1 --case robots=32
+refused 'expected environment' plot runtime --case 7
+refused 'shows one run' plot figure1 latest latest
+expect 4 plot runtime --case robots=33
+says 'nothing to draw' err
 
 # The archive's files: a folder for each map and number of robots; what it lacks is left out.
 mkdir -p archive/warehouse archive/empty/64
@@ -47,6 +64,7 @@ equal "$(ask "SELECT count(*), count(DISTINCT environment) FROM v_results WHERE 
 refused "expected I/N" reproduce aamas2018 --shard 3
 refused "nowhere" reproduce aamas2018 --instances nowhere
 expect 0 bench --suite smoke --robots 8 --map empty:9x9 --count 1
+expect 4 plot figure1
 
 [ "$broken" -eq 0 ] && echo "reproduce: everything as promised"
 exit "$((broken > 0))"

@@ -6,6 +6,7 @@
 #include "bench/report/chart.hpp"
 #include "bench/report/density.hpp"
 #include "bench/report/numbers.hpp"
+#include "bench/report/runtime_chart.hpp"
 #include "bench/report/trend_text.hpp"
 
 namespace sipplab::bench {
@@ -125,6 +126,44 @@ TEST(TrendText, tells_versions_changes_and_sizes) {
   const auto json = trend_json(metric, {series});
   EXPECT_EQ(json["series"][0]["changes"][0]["effect"], -0.5);
   EXPECT_EQ(json["series"][0]["points"].size(), 4U);
+}
+
+db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
+  db::CellSummary cell;
+  cell.environment = environment;
+  cell.robots = robots;
+  cell.ssi_s = 5;
+  cell.reschedule = "none";
+  cell.order = "fifo";
+  cell.planner = "sipplab";
+  cell.connectedness = 2;
+  cell.median_planning_time_s = median_s;
+  return cell;
+}
+
+TEST(RuntimeChart, names_lines_by_what_tells_them_apart) {
+  db::RunReport ours;
+  ours.run.uuid = "11111111-rest";
+  ours.cells = {timed_cell("empty", 32, 0.002), timed_cell("empty", 16, 0.001),
+                timed_cell("warehouse", 16, 0.004)};
+  db::RunReport theirs;
+  theirs.run.uuid = "22222222-rest";
+  theirs.cells = {timed_cell("empty", 16, 0.5), timed_cell("empty", 16, 0.7)};
+  theirs.cells[0].planner = theirs.cells[1].planner = "cmd:other";
+
+  db::CaseFilter empty_maps;
+  empty_maps.environment = "empty";
+  const Chart chart = runtime_chart({ours, theirs}, empty_maps);
+  ASSERT_EQ(chart.lines.size(), 2U);
+  EXPECT_EQ(chart.title, "empty, none, fifo, ssi 5") << "what all lines share";
+  EXPECT_EQ(chart.lines[0].label, "any-angle-4, run 11111111");
+  EXPECT_EQ(chart.lines[0].points, (std::vector<std::pair<double, double>>{{16, 1}, {32, 2}}));
+  EXPECT_NE(chart.lines[1].label.find("cmd:other"), std::string::npos) << chart.lines[1].label;
+  ASSERT_EQ(chart.lines[1].points.size(), 1U) << "cases that differ in nothing shown are one point";
+  EXPECT_DOUBLE_EQ(chart.lines[1].points[0].second, 600);
+
+  EXPECT_EQ(runtime_chart({ours, theirs}, {}).lines.size(), 3U);
+  EXPECT_TRUE(runtime_chart({}, {}).lines.empty());
 }
 
 }  // namespace

@@ -1,0 +1,115 @@
+// sipplab plot: one picture from the history.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cli/case_filter.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
+#include "bench/report/runtime_chart.hpp"
+#include "bench/reproduce/paper_report.hpp"
+#include "db/database.hpp"
+#include "db/queries.hpp"
+#include "planner/io/text_file.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+struct PlotArguments {
+  std::string kind;
+  std::vector<std::string> runs;
+  std::vector<std::string> cases;
+  std::optional<std::string> file;
+  std::optional<std::string> database;
+};
+
+/// What a picture is drawn from.
+struct PlottedRuns {
+  std::vector<db::RunReport> reports;
+  std::vector<bench::MeasuredCell> paper_cells;
+};
+
+db::Result<PlottedRuns> read_runs(const PlotArguments& arguments) {
+  const std::filesystem::path path = db::database_path(arguments.database);
+  auto database = db::Database::open_read_only(path);
+  if (!database) return Unexpected{database.error()};
+  PlottedRuns runs;
+  for (const std::string& run : arguments.runs) {
+    const auto uuid = db::resolve_run(*database, run);
+    if (!uuid) return Unexpected{uuid.error()};
+    auto report = db::show_run(*database, *uuid);
+    if (!report) return Unexpected{report.error()};
+    runs.reports.push_back(std::move(*report));
+    auto cells = bench::measured_cells(path, *uuid);
+    if (!cells) return Unexpected{cells.error()};
+    runs.paper_cells.insert(runs.paper_cells.end(), cells->begin(), cells->end());
+  }
+  return runs;
+}
+
+int run_plot(const PlotArguments& arguments) {
+  const bool of_paper = arguments.kind != "runtime";
+  if (of_paper && arguments.runs.size() > 1) {
+    return fail(kBadUsage, "sipplab: " + arguments.kind + " shows one run, expected not " +
+                               std::to_string(arguments.runs.size()));
+  }
+  if (of_paper && !arguments.cases.empty()) {
+    return fail(kBadUsage, "sipplab: " + arguments.kind + " has cells of its own, expected no --case");
+  }
+  const auto filter = parse_case_filter(arguments.cases);
+  if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
+  if (filter->id || filter->map) {
+    return fail(kBadUsage,
+                "sipplab: --case id and map, expected environment, robots, ssi, reschedule, "
+                "order, any_angle or connectedness for a picture");
+  }
+  const auto runs = read_runs(arguments);
+  if (!runs) return fail(runs.error());
+  const bench::Chart chart = arguments.kind == "figure1"  ? bench::figure_chart(runs->paper_cells)
+                             : arguments.kind == "table1" ? bench::table_chart(runs->paper_cells)
+                                                          : bench::runtime_chart(runs->reports, *filter);
+  const bool empty = std::all_of(chart.lines.begin(), chart.lines.end(),
+                                 [](const bench::ChartLine& line) { return line.points.empty(); });
+  if (empty) {
+    return fail(kNothingComparable, "sipplab: nothing to draw, expected " +
+                                        (of_paper ? "a run with cells of the paper: `sipplab reproduce`"
+                                                  : std::string("results of such cases in the run")));
+  }
+  const std::string picture = bench::svg(chart, bench::SvgUse::kFile);
+  if (!arguments.file) {
+    print(picture);
+    return kSuccess;
+  }
+  if (const auto error = write_file(*arguments.file, picture)) return fail(kBadUsage, error->message());
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_plot_command(CLI::App& program) {
+  auto arguments = std::make_shared<PlotArguments>();
+  arguments->runs = {"latest"};
+  CLI::App* command = program.add_subcommand("plot", "one picture from the history, as SVG");
+  command
+      ->add_option("picture", arguments->kind,
+                   "figure1: share solved over robots, a line for each start-safe interval; table1: seconds "
+                   "in the warehouse beside the paper's; runtime: median planning time of any runs")
+      ->required()
+      ->check(CLI::IsMember({"figure1", "table1", "runtime"}));
+  command
+      ->add_option("run", arguments->runs,
+                   "UUID, its first four or more digits, or latest; several for runtime")
+      ->capture_default_str();
+  add_case_flag(*command, arguments->cases);
+  command->add_option("-o,--output", arguments->file, "the file; default: standard output")
+      ->type_name("FILE");
+  add_database_flag(*command, arguments->database);
+  return {command, [arguments] { return run_plot(*arguments); }};
+}
+
+}  // namespace sipplab::cli
