@@ -285,7 +285,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command.add_option("--ssi", arguments.ssi, "instead of the suite's start-safe intervals: 0,2.5,inf")
       ->delimiter(',')
       ->check(check_ssi);
-  command.add_option("--reschedule", arguments.reschedule, "none,deterministic,random")
+  command.add_option("--reschedule", arguments.reschedule, "none,deterministic,random,ejection")
       ->delimiter(',')
       ->check(check_reschedule);
   command.add_option("--order", arguments.order, "fifo,shortest,longest,random")

@@ -9,7 +9,7 @@
 namespace sipplab::cli {
 namespace {
 
-constexpr const char* kRescheduleNames = "none, deterministic or random";
+constexpr const char* kRescheduleNames = "none, deterministic, random or ejection";
 constexpr const char* kOrderNames = "fifo, shortest, longest or random";
 constexpr int kMinConnectedness = 2;
 constexpr int kMaxConnectedness = 5;

@@ -167,6 +167,12 @@ std::optional<InstanceError> find_agent_error(const Instance& instance, DiskLook
 
 }  // namespace
 
+double largest_radius_cells(const Instance& instance) {
+  double largest = 0;
+  for (const Agent& agent : instance.agents) largest = std::max(largest, agent.radius_cells);
+  return largest;
+}
+
 std::optional<InstanceError> find_error(const Instance& instance) {
   DiskLookup starts;
   if (auto error = find_agent_error(instance, starts)) return error;

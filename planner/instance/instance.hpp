@@ -35,6 +35,9 @@ struct Instance {
   friend bool operator==(const Instance&, const Instance&) = default;
 };
 
+/// Of all agents; 0 where there are none.
+double largest_radius_cells(const Instance& instance);
+
 /// Why an instance is not a problem that can be posed.
 struct InstanceError {
   std::optional<AgentIndex> agent;  ///< the later one where two are at odds

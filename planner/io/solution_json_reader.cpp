@@ -161,7 +161,7 @@ void read_planner_options(JsonReader& reader, const json& document, SolutionDocu
   }
   const auto rescheduling = parse_rescheduling(reader.text(document, "reschedule", "none"));
   const auto order = parse_initial_order(reader.text(document, "initial_order", "fifo"));
-  if (!rescheduling) reader.fail("reschedule", "none, deterministic or random");
+  if (!rescheduling) reader.fail("reschedule", "none, deterministic, random or ejection");
   if (!order) reader.fail("initial_order", "fifo, shortest, longest or random");
   options.rescheduling = rescheduling.value_or(options.rescheduling);
   options.order = order.value_or(options.order);

@@ -66,6 +66,8 @@ std::string_view published_name(Rescheduling rescheduling) {
       return "rulebased";
     case Rescheduling::kRandom:
       return "random";
+    case Rescheduling::kEjection:
+      return "ejection";  // not known to the published planner
     case Rescheduling::kNone:
       break;
   }

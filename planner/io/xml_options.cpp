@@ -39,7 +39,8 @@ void read_algorithm(XmlReader& reader, xml_node node, FileOptions& options) {
       {"none", Rescheduling::kNone},
       {"rulebased", Rescheduling::kDeterministic},
       {"deterministic", Rescheduling::kDeterministic},
-      {"random", Rescheduling::kRandom}};
+      {"random", Rescheduling::kRandom},
+      {"ejection", Rescheduling::kEjection}};
   // The last line: settings of older dialects that leave nothing to choose here.
   reader.expect_only_children(
       node, {"allowanyangle", "connectedness", "rescheduling", "startsafeinterval", "prioritization",

@@ -15,10 +15,11 @@ constexpr std::array<std::pair<InitialOrder, std::string_view>, 4> kOrderNames =
     {InitialOrder::kRandom, "random"},
 }};
 
-constexpr std::array<std::pair<Rescheduling, std::string_view>, 3> kReschedulingNames = {{
+constexpr std::array<std::pair<Rescheduling, std::string_view>, 4> kReschedulingNames = {{
     {Rescheduling::kNone, "none"},
     {Rescheduling::kDeterministic, "deterministic"},
     {Rescheduling::kRandom, "random"},
+    {Rescheduling::kEjection, "ejection"},
 }};
 
 template <class Names, class Value>

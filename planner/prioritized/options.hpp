@@ -1,6 +1,7 @@
 // Options of a run of prioritized planning, and their names as users write them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -17,9 +18,10 @@ enum class Rescheduling {
   kNone,           ///< report the failure
   kDeterministic,  ///< the failed robot to the front, until success or until an order repeats
   kRandom,         ///< seeded shuffles, none tried twice
+  kEjection,       ///< the failed robot is planned and those in its way are planned again
 };
 
-/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random".
+/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random", "ejection".
 std::string_view name(InitialOrder order);
 std::string_view name(Rescheduling rescheduling);
 std::optional<InitialOrder> parse_initial_order(std::string_view text);
@@ -46,7 +48,9 @@ struct PlannerOptions {
 
   double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
   std::uint64_t max_expansions = UINT64_MAX;  ///< over all tries
-  std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first
+  std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first; ejections count as tries
+  /// Set from outside, by a signal for one: ends planning as the time limit does.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 }  // namespace sipplab

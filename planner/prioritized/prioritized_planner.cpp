@@ -1,92 +1,14 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
-#include "planner/core/assert.hpp"
-#include "planner/core/tolerances.hpp"
+#include "planner/prioritized/ejection.hpp"
+#include "planner/prioritized/limits.hpp"
+#include "planner/prioritized/start_guard.hpp"
 #include "planner/search/sipp_search.hpp"
 
 namespace sipplab {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Beyond this many seconds a time limit is as good as none (and a clock would
-/// overflow): about three years.
-constexpr double kLongestTimeLimitS = 1e8;
-
-std::optional<Clock::time_point> deadline_after(Clock::time_point begin, double limit_s) {
-  if (!(limit_s < kLongestTimeLimitS)) return std::nullopt;
-  return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
-}
-
-double largest_radius(const Instance& instance) {
-  double largest = 0;
-  for (const Agent& agent : instance.agents) largest = std::max(largest, agent.radius_cells);
-  return largest;
-}
-
-/// The start-safe intervals of the robots that are still to be planned: their starts
-/// as resting disks in the reservation table. [AY18], section 3.
-class StartGuard {
- public:
-  StartGuard(const Instance& instance, double ssi_s, ReservationTable& reservations)
-      : instance_(instance), ssi_s_(ssi_s), reservations_(reservations) {
-    if (ssi_s_ == 0) return;
-    for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) disks_.push_back(protect(agent));
-  }
-
-  /// The robot is about to be planned: its own start is no obstacle to it. Starts that are
-  /// protected for ever let it in where its own goal overlaps them, while it is within the
-  /// disk of its goal; else a goal on the start of another robot could never be reached.
-  void begin(AgentIndex agent) {
-    if (ssi_s_ == 0) return;
-    lift(agent);
-    if (ssi_s_ < kInfiniteSsi) return;
-    for (AgentIndex other = 0; other < disks_.size(); ++other) {
-      if (disks_[other] && overlaps_goal(agent, other)) {
-        const Agent& owner = instance_.agents[other];
-        lift(other);
-        reservations_.add_keepout(centre(owner.start), owner.radius_cells,
-                                  centre(instance_.agents[agent].goal));
-        lifted_for_goal_.push_back(other);
-      }
-    }
-  }
-
-  /// The robot has been planned.
-  void end() {
-    reservations_.clear_keepouts();
-    for (const AgentIndex other : lifted_for_goal_) disks_[other] = protect(other);
-    lifted_for_goal_.clear();
-  }
-
- private:
-  std::optional<ReservationTable::DiskId> protect(AgentIndex agent) {
-    const Agent& owner = instance_.agents[agent];
-    return reservations_.add(MovingDisk::resting(centre(owner.start), 0, ssi_s_, owner.radius_cells));
-  }
-
-  void lift(AgentIndex agent) {
-    PLANNER_ASSERT(disks_[agent]);
-    reservations_.remove(*disks_[agent]);
-    disks_[agent].reset();
-  }
-
-  bool overlaps_goal(AgentIndex agent, AgentIndex other) const {
-    const Agent& planned = instance_.agents[agent];
-    const Agent& owner = instance_.agents[other];
-    return distance(planned.goal, owner.start) < planned.radius_cells + owner.radius_cells - kTouchDepthCells;
-  }
-
-  const Instance& instance_;
-  double ssi_s_;
-  ReservationTable& reservations_;
-  std::vector<std::optional<ReservationTable::DiskId>> disks_;
-  std::vector<AgentIndex> lifted_for_goal_;
-};
 
 /// How one pass over an order ended.
 struct PassResult {
@@ -103,6 +25,7 @@ PassResult plan_in_order(const Instance& instance, const PlannerOptions& options
     reservations.add(obstacle.trajectory, obstacle.radius_cells);
   }
   StartGuard starts(instance, options.ssi_s, reservations);
+  for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) starts.protect(agent);
   for (const AgentIndex agent : order) {
     SearchLimits left = limits;
     left.max_expansions = limits.max_expansions - statistics.expansions;
@@ -132,11 +55,9 @@ std::string_view name(PlanStatus status) {
 
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner) {
+  if (options.rescheduling == Rescheduling::kEjection) return plan_by_ejection(instance, options, planner);
   const Clock::time_point begin = Clock::now();
-  SearchLimits limits;
-  limits.max_expansions = options.max_expansions;
-  limits.deadline = deadline_after(begin, options.time_limit_s);
-
+  const SearchLimits limits = search_limits(options, begin);
   std::vector<double> lengths_s;
   for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
     lengths_s.push_back(planner.lower_bound_s(agent));
@@ -145,14 +66,14 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   PriorityOrder first = initial_order(options.order, lengths_s, random);
   OrderSequence orders(options.rescheduling, std::move(first), random);
 
-  ReservationTable reservations(instance.map, largest_radius(instance));
+  ReservationTable reservations(instance.map, largest_radius_cells(instance));
   PlanResult result;
   while (true) {
     Solution solution;
     solution.trajectories.resize(instance.agents.size());
     const PassResult pass = plan_in_order(instance, options, orders.current(), planner, limits, reservations,
                                           result.statistics, solution);
-    result.trace.push_back({orders.current(), pass.failed});
+    result.trace.push_back({orders.current(), pass.failed, {}});
     if (!pass.failed) {
       result.status = PlanStatus::kSolved;
       result.solution = std::move(solution);
@@ -166,12 +87,12 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
       result.status = PlanStatus::kFailed;
       break;
     }
-    if (result.trace.size() > options.max_restarts || (limits.deadline && Clock::now() >= *limits.deadline)) {
+    if (result.trace.size() > options.max_restarts || limits.is_over()) {
       result.status = PlanStatus::kLimit;
       break;
     }
   }
-  result.planning_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.planning_seconds = seconds_since(begin);
   return result;
 }
 
@@ -179,7 +100,7 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   const Clock::time_point begin = Clock::now();
   SippSearch search(instance, {options.any_angle, options.connectedness});
   PlanResult result = plan_prioritized(instance, options, search);
-  result.planning_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.planning_seconds = seconds_since(begin);
   return result;
 }
 

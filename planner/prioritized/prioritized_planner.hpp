@@ -16,10 +16,12 @@
 
 namespace sipplab {
 
-/// One pass over an order.
+/// One pass over an order; by ejection, the planning of robots until one fails.
 struct Try {
+  /// By ejection only the last try has one: the final order, or the first where none was found.
   PriorityOrder order;
   std::optional<AgentIndex> failed;  ///< the agent for which no trajectory was found
+  std::vector<AgentIndex> ejected;   ///< by ejection: those that made room for it
 };
 
 enum class PlanStatus {
@@ -33,7 +35,7 @@ std::string_view name(PlanStatus status);
 struct PlanResult {
   PlanStatus status = PlanStatus::kFailed;
   Solution solution;  ///< all trajectories when solved, else empty
-  /// Every order tried, in turn; the last one is the final order.
+  /// Every try in turn; the last one has the final order.
   std::vector<Try> trace;
   SearchStatistics statistics;  ///< over all tries
   double planning_seconds = 0;  ///< wall clock, planning alone

@@ -51,6 +51,7 @@ bool OrderSequence::all_orders_tried() const {
 bool OrderSequence::advance(AgentIndex failed) {
   switch (rescheduling_) {
     case Rescheduling::kNone:
+    case Rescheduling::kEjection:  // repairs its plan instead, see ejection.hpp
       return false;
     case Rescheduling::kDeterministic: {
       const auto place = std::find(current_.begin(), current_.end(), failed);

@@ -56,9 +56,11 @@ void ReservationTable::clear() {
     timeline.passing.clear();
     timeline.resting.clear();
     timeline.safe_radius = -1;
+    timeline.used = false;
   }
   used_cells_.clear();
   disks_.clear();
+  free_ids_.clear();
   answered_.clear();
   keepouts_.clear();
 }
@@ -117,13 +119,28 @@ void ReservationTable::Timeline::insert(const Presence& presence) {
   }
 }
 
+void ReservationTable::Timeline::repair_from(std::pmr::vector<Presence>::iterator place) {
+  double latest_exit_s = place == passing.begin() ? -kForever : std::prev(place)->latest_exit_s;
+  for (; place != passing.end(); ++place) {
+    latest_exit_s = std::max(latest_exit_s, place->exit_s);
+    if (place->latest_exit_s == latest_exit_s) return;  // and all those behind it, too
+    place->latest_exit_s = latest_exit_s;
+  }
+}
+
 ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
-  const auto id = static_cast<DiskId>(disks_.size());
-  disks_.push_back(disk);
-  answered_.push_back(0);
+  auto id = static_cast<DiskId>(disks_.size());
+  if (free_ids_.empty()) {
+    disks_.push_back(disk);
+    answered_.push_back(0);
+  } else {
+    id = free_ids_.back();
+    free_ids_.pop_back();
+    disks_[id] = disk;
+  }
   for_each_cell_near(disk, [&](std::size_t cell, Span near) {
     Timeline& timeline = timelines_[cell];
-    if (timeline.is_empty()) used_cells_.push_back(cell);
+    if (!std::exchange(timeline.used, true)) used_cells_.push_back(cell);
     if (timeline.safe_radius >= 0) {
       timeline.safe.remove_open(
           collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius));
@@ -145,7 +162,6 @@ ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
 
 void ReservationTable::remove(DiskId id) {
   const MovingDisk& disk = disks_[id];
-  PLANNER_ASSERT(disk.at_rest());
   for_each_cell_near(disk, [&](std::size_t cell, Span) {
     Timeline& timeline = timelines_[cell];
     timeline.safe_radius = -1;
@@ -153,18 +169,24 @@ void ReservationTable::remove(DiskId id) {
     const auto place = std::find_if(presences.begin(), presences.end(),
                                     [id](const Presence& presence) { return presence.disk == id; });
     PLANNER_ASSERT(place != presences.end());
-    // latest_exit_s of those behind it may be too late now, which costs time only.
-    presences.erase(place);
+    const auto behind = presences.erase(place);
+    if (disk.end_s < kForever) timeline.repair_from(behind);
   });
   disks_[id].end_s = kRemoved;
+  free_ids_.push_back(id);
 }
 
-void ReservationTable::add(const Trajectory& trajectory, double radius_cells) {
+std::vector<ReservationTable::DiskId> ReservationTable::add(const Trajectory& trajectory,
+                                                            double radius_cells) {
+  std::vector<DiskId> ids;
+  ids.reserve(trajectory.motions.size() + 1);
   for (const TimedMotion& motion : trajectory.motions) {
     const Displacement way(centre(motion.from), centre(motion.to));
-    add(MovingDisk::moving(way, motion.begin_s, motion.end_s, radius_cells));
+    ids.push_back(add(MovingDisk::moving(way, motion.begin_s, motion.end_s, radius_cells)));
   }
-  add(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius_cells));
+  ids.push_back(
+      add(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius_cells)));
+  return ids;
 }
 
 void ReservationTable::add_keepout(Vec2 place, double radius_cells, Vec2 pardoned) {

@@ -38,10 +38,11 @@ class ReservationTable {
 
   /// Adds one disk. O(cells near its way * log disks there).
   DiskId add(const MovingDisk& disk);
-  /// Removes a disk that rests. REQUIRES: added, not removed yet, at rest.
+  /// Removes a disk; its id may be given to another one from now on.
+  /// REQUIRES: added, not removed yet. O(cells near its way * disks there).
   void remove(DiskId id);
-  /// Adds a whole trajectory and the rest at its end for ever.
-  void add(const Trajectory& trajectory, double radius_cells);
+  /// Adds a whole trajectory and the rest at its end for ever; their ids, for remove().
+  std::vector<DiskId> add(const Trajectory& trajectory, double radius_cells);
 
   /// Keeps robots away from a disk for ever, except while they are in the disk of the same
   /// reach around `pardoned`. For the robot that is planned next only: forgotten by
@@ -92,10 +93,13 @@ class ReservationTable {
     /// added; negative: to be computed when asked for.
     IntervalSet safe;
     double safe_radius = -1;
+    bool used = false;  ///< whether used_cells_ names it
 
     bool is_empty() const { return passing.empty() && resting.empty(); }
     /// A finite presence. O(log size + those behind it).
     void insert(const Presence& presence);
+    /// Brings latest_exit_s up to date from `place` on. O(those that change).
+    void repair_from(std::pmr::vector<Presence>::iterator place);
     /// The first passing presence that may end after `time_s`. O(log size).
     const Presence* first_after(double time_s) const;
   };
@@ -123,11 +127,12 @@ class ReservationTable {
   /// Where the timelines lie: many small arrays that grow and are dropped together.
   std::pmr::monotonic_buffer_resource memory_;
   std::vector<MovingDisk> disks_;
+  std::vector<DiskId> free_ids_;         ///< of disks that were removed
   std::uint64_t question_ = 0;           ///< number of a move and departure that is asked about
   std::vector<std::uint64_t> answered_;  ///< by disk: the last question for which it was looked at
   std::vector<Timeline> timelines_;
   std::vector<Keepout> keepouts_;
-  std::vector<std::size_t> used_cells_;  ///< timelines that are not empty
+  std::vector<std::size_t> used_cells_;  ///< timelines that have held a disk since clear()
   std::vector<CellVisit> visits_;        ///< scratch, with room for the longest way
   std::uint64_t disks_examined_ = 0;
 };

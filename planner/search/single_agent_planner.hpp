@@ -3,6 +3,7 @@
 // planner that can respect a ReservationTable.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -37,6 +38,17 @@ struct SearchStatistics {
 struct SearchLimits {
   std::uint64_t max_expansions = UINT64_MAX;
   std::optional<std::chrono::steady_clock::time_point> deadline;
+  /// Set from outside, by a signal for one: asks to end as a deadline does.
+  const std::atomic<bool>* stop = nullptr;
+  /// Trajectories that arrive later are of no use: a search may end with kNoPath as soon
+  /// as no earlier arrival is left in it.
+  double latest_arrival_s = kForever;
+
+  /// Whether the deadline has passed or somebody asked to end.
+  bool is_over() const {
+    return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
+           (deadline && std::chrono::steady_clock::now() >= *deadline);
+  }
 };
 
 class SingleAgentPlanner {

@@ -49,6 +49,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
     const NodeId id = entry.node;
+    if (entry.f > limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     if (entry.is_promise()) {
       if (!relax(entry.from, entry.parent, id, statistics)) continue;
       // Kept to the letter, the promise makes its node the next one of OPEN at once.
@@ -63,8 +64,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
     if (statistics.expansions - expansions_before >= limits.max_expansions) {
       return Unexpected{PlanFailure::kExpansionLimit};
     }
-    if (limits.deadline && statistics.expansions % kExpansionsPerClockCheck == 0 &&
-        std::chrono::steady_clock::now() >= *limits.deadline) {
+    if (statistics.expansions % kExpansionsPerClockCheck == 0 && limits.is_over()) {
       return Unexpected{PlanFailure::kTimeLimit};
     }
     ++statistics.expansions;

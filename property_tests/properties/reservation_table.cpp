@@ -40,6 +40,9 @@ struct Traffic {
   std::vector<Cell> blocked;
   std::vector<Guard> guards;
   std::vector<Walk> walks;
+  std::uint32_t removed_walks = 0;  ///< bit i is set: walk i is removed again
+
+  bool removes_walk(std::size_t i) const { return (removed_walks >> i & 1) != 0; }
 };
 
 /// What a robot asks: when to leave for another cell.
@@ -61,7 +64,9 @@ std::ostream& operator<<(std::ostream& out, const Traffic& traffic) {
     out << (guard.removed ? "removed " : "") << "guard (" << guard.place.x << ", " << guard.place.y
         << ") radius " << guard.radius << " from " << guard.begin_s << " for " << guard.rest_s << "\n";
   }
-  for (const Walk& walk : traffic.walks) out << walk << "\n";
+  for (std::size_t i = 0; i < traffic.walks.size(); ++i) {
+    out << (traffic.removes_walk(i) ? "removed " : "") << traffic.walks[i] << "\n";
+  }
   return out;
 }
 
@@ -80,6 +85,11 @@ rc::Gen<std::vector<Value>> up_to(std::size_t most, const rc::Gen<Value>& any) {
       [any](std::size_t count) { return rc::gen::container<std::vector<Value>>(count, any); });
 }
 
+/// None of them in half of all cases.
+rc::Gen<std::uint32_t> any_walks_to_remove() {
+  return rc::gen::oneOf(rc::gen::just(std::uint32_t{0}), rc::gen::inRange<std::uint32_t>(0, 64));
+}
+
 rc::Gen<Traffic> any_traffic() {
   const auto any_guard = rc::gen::build<Guard>(
       rc::gen::set(&Guard::place, any_cell(kWidth, kHeight)),
@@ -89,7 +99,8 @@ rc::Gen<Traffic> any_traffic() {
   return rc::gen::build<Traffic>(rc::gen::set(&Traffic::largest_radius, any_of({1.5, 0.5, 0.25})),
                                  rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
                                  rc::gen::set(&Traffic::guards, up_to(4, any_guard)),
-                                 rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))));
+                                 rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))),
+                                 rc::gen::set(&Traffic::removed_walks, any_walks_to_remove()));
 }
 
 rc::Gen<std::vector<Query>> any_queries() {
@@ -110,28 +121,30 @@ class Filled {
     fill(traffic);
   }
 
-  /// Adds guards, then walks, removes some guards half way through, and asks for safe
-  /// intervals in between, so that they have to be kept up to date.
+  /// Adds guards, then walks, removes some of both, and asks for safe intervals in
+  /// between, so that they have to be kept up to date.
   void fill(const Traffic& traffic) {
-    std::vector<ReservationTable::DiskId> ids;
+    std::vector<ReservationTable::DiskId> to_remove;
     for (const Guard& guard : traffic.guards) {
-      ids.push_back(table_.add(guard.disk()));
-      disks_.push_back(guard.disk());
+      const ReservationTable::DiskId id = table_.add(guard.disk());
+      if (guard.removed) {
+        to_remove.push_back(id);
+      } else {
+        disks_.push_back(guard.disk());
+      }
     }
     ask_everywhere(largest_radius_);
     for (std::size_t i = 0; i < traffic.walks.size(); ++i) {
       if (i == traffic.walks.size() / 2) ask_everywhere(i % 2 == 0 ? largest_radius_ : largest_radius_ / 2);
-      add(traffic.walks[i]);
-    }
-    std::vector<MovingDisk> left;
-    for (std::size_t i = 0; i < disks_.size(); ++i) {
-      if (i < ids.size() && traffic.guards[i].removed) {
-        table_.remove(ids[i]);
+      const Walk& walk = traffic.walks[i];
+      if (traffic.removes_walk(i)) {
+        for (const auto id : table_.add(walk.trajectory(), walk.radius)) to_remove.push_back(id);
       } else {
-        left.push_back(disks_[i]);
+        add(walk);
       }
     }
-    disks_ = left;
+    ask_everywhere(largest_radius_);
+    for (const ReservationTable::DiskId id : to_remove) table_.remove(id);
     ask_everywhere(largest_radius_);
     // Once more after a removal.
     if (!traffic.walks.empty()) add(traffic.walks.front());

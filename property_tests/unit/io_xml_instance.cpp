@@ -192,8 +192,9 @@ TEST(IoXmlInstance, BadOptionsNameTheirLine) {
             "f:3: <timelimit> '0', expected seconds above 0, or -1 for no limit");
   EXPECT_EQ(option_error("waitbeforemove", "101"),
             "f:3: <waitbeforemove> '101', expected seconds from 0 to 100");
-  EXPECT_EQ(option_error("rescheduling", "rules"),
-            "f:3: <rescheduling> 'rules', expected one of deterministic, no, none, random, rulebased");
+  EXPECT_EQ(
+      option_error("rescheduling", "rules"),
+      "f:3: <rescheduling> 'rules', expected one of deterministic, ejection, no, none, random, rulebased");
   EXPECT_EQ(option_error("prioritization", ""),
             "f:3: <prioritization> '', expected one of fifo, longest_first, random, shortest_first");
 }

@@ -1,0 +1,67 @@
+// Anytime large neighbourhood search: a few robots are taken out of a plan and planned
+// again around the others, and what is better stays. Li et al., IJCAI 2021, over the exact
+// planner; beyond [AY18].
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "planner/improve/objective.hpp"
+#include "planner/improve/static_times.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+
+namespace sipplab {
+
+struct ImproveOptions {
+  Objective objective;
+  std::uint64_t max_iterations = UINT64_MAX;
+  double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
+  /// Start-safe interval that the plan promises.
+  double ssi_s = 0;
+  bool any_angle = true;  ///< of the planner: which static times bound the result
+  int connectedness = 2;
+  std::uint64_t seed = 1;
+  /// Set from outside, by a signal for one: ends the search as the time limit does.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// A point of the curve: the plan's cost from then on.
+struct ProgressPoint {
+  double seconds = 0;  ///< wall clock since improvement began
+  std::uint64_t iteration = 0;
+  PlanCost cost;
+};
+
+struct ImproveResult {
+  Solution solution;
+  /// A final order that keeps the promise of start-safe intervals; none where the given plan
+  /// kept it in no order: then the result promises freedom from collisions alone.
+  std::optional<PriorityOrder> order;
+  /// The given plan first, then each better one, and the end.
+  std::vector<ProgressPoint> curve;
+  LowerBound bound;
+  std::uint64_t iterations = 0;
+  std::uint64_t improvements = 0;
+  SearchStatistics statistics;
+};
+
+/// Improves a plan until a limit strikes:
+///  (1) the result is never worse than the given plan (is_better());
+///  (2) it is free of conflicts where the given plan is;
+///  (3) it keeps the promise of start-safe intervals where the given plan keeps it in some order;
+///  (4) the same input, options and number of iterations give the same result: a limit in
+///      seconds decides nothing but the number of iterations.
+/// `order` is the given plan's: the result's is near it.
+/// REQUIRES: !find_error(instance); the solution is valid, and one of the planner's kind.
+ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
+                      const ImproveOptions& options, SingleAgentPlanner& planner);
+
+/// The same with the planner that the options name.
+ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
+                      const ImproveOptions& options);
+
+}  // namespace sipplab

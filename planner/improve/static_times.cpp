@@ -1,0 +1,142 @@
+#include "planner/improve/static_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <queue>
+
+#include "planner/geometry/interval.hpp"
+#include "planner/grid/neighbourhood.hpp"
+#include "planner/grid/step_table.hpp"
+
+namespace sipplab {
+namespace {
+
+/// A cell that a way may turn in.
+struct Corner {
+  Cell cell;
+  double from_start = kForever;  ///< length of the shortest way known, in cells
+  double to_goal = 0;            ///< straight
+  bool is_settled = false;
+};
+
+/// Cells on some way from start to goal of less than `longest`, the start first.
+std::vector<Corner> cells_of_ellipse(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
+                                     double longest) {
+  std::vector<Corner> corners = {{from, 0, distance(from, to)}};
+  const auto slack = static_cast<std::int32_t>(std::ceil((longest - distance(from, to)) / 2));
+  const auto [left, right] = std::minmax(from.x, to.x);
+  const auto [top, bottom] = std::minmax(from.y, to.y);
+  for (std::int32_t y = std::max(top - slack, 0); y <= std::min(bottom + slack, map.height() - 1); ++y) {
+    for (std::int32_t x = std::max(left - slack, 0); x <= std::min(right + slack, map.width() - 1); ++x) {
+      const Cell cell{x, y};
+      if (cell == from || cell == to || !line_of_sight.is_legal(cell)) continue;
+      const double to_goal = distance(cell, to);
+      if (distance(from, cell) + to_goal < longest) corners.push_back({cell, kForever, to_goal});
+    }
+  }
+  return corners;
+}
+
+struct OpenCell {
+  double f;
+  std::size_t index;
+
+  friend bool operator>(const OpenCell& a, const OpenCell& b) {
+    return a.f != b.f ? a.f > b.f : a.index > b.index;
+  }
+};
+using OpenCells = std::priority_queue<OpenCell, std::vector<OpenCell>, std::greater<>>;
+
+}  // namespace
+
+double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
+                                double longest) {
+  if (line_of_sight.is_clear(from, to)) return distance(from, to);
+  std::vector<Corner> corners = cells_of_ellipse(map, line_of_sight, from, to, longest);
+  OpenCells open;
+  open.push({corners[0].to_goal, 0});
+  double shortest = longest;
+  std::size_t work = 0;
+  while (!open.empty()) {
+    const OpenCell least = open.top();
+    open.pop();
+    if (least.f >= shortest) break;
+    Corner& here = corners[least.index];
+    if (here.is_settled) continue;
+    here.is_settled = true;
+    work += corners.size();
+    if (work > kMostStaticWork) return least.f;
+    if (here.from_start + here.to_goal < shortest && line_of_sight.is_clear(here.cell, to)) {
+      shortest = here.from_start + here.to_goal;
+    }
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      Corner& next = corners[i];
+      if (next.is_settled) continue;
+      const double way = here.from_start + distance(here.cell, next.cell);
+      if (way >= next.from_start || way + next.to_goal >= shortest) continue;
+      if (!line_of_sight.is_clear(here.cell, next.cell)) continue;
+      next.from_start = way;
+      open.push({way + next.to_goal, i});
+    }
+  }
+  return shortest;
+}
+
+double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to, int k) {
+  StepTable steps(line_of_sight, map.cell_count(), k);
+  std::vector<double> from_start(map.cell_count(), kForever);
+  OpenCells open;
+  from_start[map.index(from)] = 0;
+  open.push({neighbourhood_distance(from, to, k), map.index(from)});
+  std::vector<bool> settled(map.cell_count());
+  while (!open.empty()) {
+    const std::size_t index = open.top().index;
+    open.pop();
+    if (settled[index]) continue;
+    settled[index] = true;
+    const Cell here = map.cell(index);
+    if (here == to) return from_start[index];
+    const std::uint32_t clear = steps.clear_steps(here, index);
+    const std::span<const Cell> all = neighbourhood(k);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if ((clear >> i & 1) == 0) continue;
+      const Cell next{here.x + all[i].x, here.y + all[i].y};
+      const double way = from_start[index] + distance(here, next);
+      if (way >= from_start[map.index(next)]) continue;
+      from_start[map.index(next)] = way;
+      open.push({way + neighbourhood_distance(next, to, k), map.index(next)});
+    }
+  }
+  return kForever;
+}
+
+std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
+                                   const std::vector<double>& solo_cells) {
+  std::vector<std::unique_ptr<LineOfSight>> lines_of_sight;  // one for each radius
+  std::vector<double> times_s;
+  for (AgentIndex i = 0; i < instance.agents.size(); ++i) {
+    const Agent& agent = instance.agents[i];
+    auto known = std::find_if(lines_of_sight.begin(), lines_of_sight.end(),
+                              [&](const auto& other) { return other->radius_cells() == agent.radius_cells; });
+    if (known == lines_of_sight.end()) {
+      known = lines_of_sight.insert(known, std::make_unique<LineOfSight>(instance.map, agent.radius_cells));
+    }
+    const double cells =
+        any_angle ? shortest_any_angle_cells(instance.map, **known, agent.start, agent.goal, solo_cells[i])
+                  : shortest_grid_cells(instance.map, **known, agent.start, agent.goal, connectedness);
+    times_s.push_back(cells / agent.speed_cells_per_s);
+  }
+  return times_s;
+}
+
+LowerBound lower_bound(const std::vector<double>& static_times_s) {
+  LowerBound bound;
+  for (const double time_s : static_times_s) {
+    bound.flowtime_s += time_s;
+    bound.makespan_s = std::max(bound.makespan_s, time_s);
+  }
+  return bound;
+}
+
+}  // namespace sipplab

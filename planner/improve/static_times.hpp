@@ -1,0 +1,40 @@
+// How fast each robot could be if it were alone: what no plan can beat.
+#pragma once
+
+#include <vector>
+
+#include "planner/grid/line_of_sight.hpp"
+#include "planner/instance/instance.hpp"
+
+namespace sipplab {
+
+/// What no plan of the instance can fall below, in seconds.
+struct LowerBound {
+  double flowtime_s = 0;  ///< sum of the robots' static times
+  double makespan_s = 0;  ///< greatest of them
+};
+
+/// Length, in cells, of the shortest way over straight sections between cell centres that a
+/// disk can travel on the map; kForever where there is none.
+///
+/// A* over all cells in line of sight, limited to those of an ellipse: `longest` is the
+/// length of some way that exists. Exact, but where the work for it would exceed
+/// kMostStaticWork; then the least f in OPEN, which is a lower bound, too.
+double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
+                                double longest);
+
+/// The same over the steps of the 2^k neighbourhood; always exact.
+double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to, int k);
+
+/// Pairs of cells looked at for one robot; about a hundredth of a second. On the paper's
+/// warehouse every robot needs less.
+inline constexpr std::size_t kMostStaticWork = 1'000'000;
+
+/// Lower bounds on the arrival of each robot alone on the map, in seconds. `solo_cells` are the
+/// lengths of ways that exist, by robot.
+std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
+                                   const std::vector<double>& solo_cells);
+
+LowerBound lower_bound(const std::vector<double>& static_times_s);
+
+}  // namespace sipplab

@@ -1,0 +1,55 @@
+// Which orders of the robots keep the promise of start-safe intervals: whoever comes
+// near the start of another robot while it is protected must come after it.
+// [AY18], section 3, for plans that were not made in one pass over an order.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planner/instance/instance.hpp"
+#include "planner/prioritized/priority_order.hpp"
+#include "planner/solution/trajectory.hpp"
+
+namespace sipplab {
+
+/// A graph over the robots: an edge from `owner` to each robot that crosses the start of
+/// `owner` during [0, ssi_s]. While it has no cycle, any order in which edges lead
+/// backwards in priority keeps the promise for all trajectories in it. A new trajectory
+/// closes no cycle where it keeps off the starts of the robot's followers().
+class StartPrecedence {
+ public:
+  /// The instance must outlive it. REQUIRES: ssi_s >= 0.
+  StartPrecedence(const Instance& instance, double ssi_s);
+
+  /// The robot follows this trajectory from now on. O(motions during [0, ssi_s] * robots).
+  void set(AgentIndex agent, const Trajectory& trajectory);
+  /// The robot has no trajectory from now on.
+  void reset(AgentIndex agent);
+
+  /// Those that must come after the robot, in the order of a walk through the graph; never
+  /// the robot itself. O(edges).
+  const std::vector<AgentIndex>& followers(AgentIndex agent);
+
+  /// Whether the graph would have a cycle with this trajectory. O(edges + motions during
+  /// [0, ssi_s] * followers). REQUIRES: it has none now, and the robot no trajectory.
+  bool closes_cycle(AgentIndex agent, const Trajectory& trajectory);
+
+  /// An order of all robots that keeps the promise: of those that may come next always the
+  /// first in `preferred`. None where the graph has a cycle. O((robots + edges) log robots).
+  /// REQUIRES: `preferred` is a permutation of the robots.
+  std::optional<PriorityOrder> order(const PriorityOrder& preferred) const;
+
+ private:
+  bool crosses(const Agent& agent, const TimedMotion& motion, const Agent& owner) const;
+
+  const Instance& instance_;
+  double ssi_s_;
+  std::vector<std::vector<AgentIndex>> crossers_;  ///< by owner of the start
+  std::vector<std::vector<AgentIndex>> crossed_;   ///< by robot: owners of the starts
+  std::vector<AgentIndex> found_;                  ///< of the last walk
+  std::vector<std::uint64_t> seen_;                ///< by robot: the last walk that came there
+  std::uint64_t walk_ = 0;
+};
+
+}  // namespace sipplab

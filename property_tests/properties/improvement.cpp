@@ -1,0 +1,205 @@
+// Large neighbourhood search: what it gives is never worse than what it was given, as right,
+// keeps the same promise, and depends on no clock.
+#include "planner/improve/improve.hpp"
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "planner/grid/neighbourhood.hpp"
+#include "planner/validator/validator.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab {
+namespace {
+
+struct Planned {
+  PlanCase plan_case;
+  PlanResult result;
+};
+
+/// A case that is solved, by ejection in half of them.
+Planned any_planned() {
+  Planned planned{*any_case(), {}};
+  PlannerOptions& options = planned.plan_case.options;
+  options.max_restarts = std::min<std::uint64_t>(options.max_restarts, 40);
+  if (*rc::gen::arbitrary<bool>()) options.rescheduling = Rescheduling::kEjection;
+  classify_case(planned.plan_case);
+  note_case(planned.plan_case);
+  planned.result = plan(planned.plan_case.instance, options);
+  RC_PRE(planned.result.status == PlanStatus::kSolved);
+  return planned;
+}
+
+ImproveOptions any_improve_options(const PlannerOptions& options) {
+  ImproveOptions improving;
+  improving.objective =
+      *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1}, Objective{1, 20});
+  improving.max_iterations = *rc::gen::inRange<std::uint64_t>(0, 40);
+  improving.ssi_s = options.ssi_s;
+  improving.any_angle = options.any_angle;
+  improving.connectedness = options.connectedness;
+  improving.seed = *rc::gen::arbitrary<std::uint64_t>();
+  return improving;
+}
+
+ImproveResult improved(const Planned& planned, const ImproveOptions& options) {
+  ImproveResult result =
+      improve(planned.plan_case.instance, planned.result.solution, planned.result.order(), options);
+  RC_CLASSIFY(result.improvements > 0, "improved");
+  RC_CLASSIFY(result.improvements > 1, "improved more than once");
+  return result;
+}
+
+PlanCost cost_of(const Solution& solution) { return {flowtime_s(solution), makespan_s(solution)}; }
+
+void is_valid(const Instance& instance, const Solution& solution, const ValidationOptions& options) {
+  const ValidationReport report = validate(instance, solution, options);
+  for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
+  RC_ASSERT(report.valid());
+}
+
+/// Straight sections between all cells at which a disk may be, shortest ways by Floyd and Warshall.
+class AllWays {
+ public:
+  AllWays(const GridMap& map, const LineOfSight& line_of_sight)
+      : cells_(map.cell_count()), ways_(cells_ * cells_, kForever) {
+    for (std::size_t a = 0; a < cells_; ++a) {
+      for (std::size_t b = 0; b < cells_; ++b) {
+        if (!line_of_sight.is_legal(map.cell(a)) || !line_of_sight.is_legal(map.cell(b))) continue;
+        if (line_of_sight.is_clear(map.cell(a), map.cell(b))) at(a, b) = distance(map.cell(a), map.cell(b));
+      }
+    }
+    for (std::size_t k = 0; k < cells_; ++k) {
+      for (std::size_t a = 0; a < cells_; ++a) {
+        for (std::size_t b = 0; b < cells_; ++b) at(a, b) = std::min(at(a, b), at(a, k) + at(k, b));
+      }
+    }
+  }
+  double& at(std::size_t a, std::size_t b) { return ways_[a * cells_ + b]; }
+
+ private:
+  std::size_t cells_;
+  std::vector<double> ways_;
+};
+
+/// Rounding of sums of a few dozen lengths.
+constexpr double kRoundingCells = 1e-9;
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("improve (1): never worse than what it was given, and as it says", [] {
+    const Planned planned = any_planned();
+    const ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const ImproveResult result = improved(planned, options);
+    const PlanCost before = cost_of(planned.result.solution);
+    const PlanCost after = cost_of(result.solution);
+    RC_ASSERT(!is_better(options.objective, before, after));
+    RC_ASSERT(result.iterations <= options.max_iterations);
+    RC_ASSERT(result.curve.front().cost.flowtime_s == before.flowtime_s);
+    RC_ASSERT(result.curve.back().cost.flowtime_s == after.flowtime_s);
+    RC_ASSERT(result.curve.back().cost.makespan_s == after.makespan_s);
+    for (std::size_t i = 1; i + 1 < result.curve.size(); ++i) {
+      RC_ASSERT(is_better(options.objective, result.curve[i].cost, result.curve[i - 1].cost));
+    }
+  });
+
+  passed &= property("improve (2)(3): valid, and it keeps the promise where it was kept", [] {
+    const Planned planned = any_planned();
+    const ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const ImproveResult result = improved(planned, options);
+    RC_ASSERT(result.order.has_value());
+    is_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+  });
+
+  passed &= property("improve (2)(3): a promise that was not made is made only where it holds", [] {
+    const Planned planned = any_planned();
+    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    options.ssi_s = *rc::gen::element(1.0, 2.5, 5.0, kInfiniteSsi);
+    const ImproveResult result = improved(planned, options);
+    RC_CLASSIFY(!result.order, "in no order");
+    is_valid(planned.plan_case.instance, result.solution, {});
+    if (result.order) is_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+  });
+
+  passed &= property("improve (4): the same number of iterations gives the same plan", [] {
+    const Planned planned = any_planned();
+    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const ImproveResult one = improved(planned, options);
+    const ImproveResult same = improved(planned, options);
+    RC_ASSERT(one.solution == same.solution);
+    RC_ASSERT(one.order == same.order);
+    RC_ASSERT(one.statistics.expansions == same.statistics.expansions);
+    options.max_iterations += *rc::gen::inRange<std::uint64_t>(0, 20);
+    const ImproveResult longer = improved(planned, options);
+    for (std::size_t i = 0; i + 1 < one.curve.size(); ++i) {
+      RC_ASSERT(longer.curve[i].iteration == one.curve[i].iteration);
+      RC_ASSERT(longer.curve[i].cost.flowtime_s == one.curve[i].cost.flowtime_s);
+    }
+  });
+
+  passed &= property("a search that is stopped at once gives back what it was given", [] {
+    const Planned planned = any_planned();
+    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const std::atomic<bool> stop{true};
+    options.stop = &stop;
+    const ImproveResult result = improved(planned, options);
+    RC_ASSERT(result.solution == planned.result.solution);
+    RC_ASSERT(result.iterations == 0u);
+  });
+
+  passed &= property("the lower bound is below every plan", [] {
+    const Planned planned = any_planned();
+    const ImproveResult result = improved(planned, any_improve_options(planned.plan_case.options));
+    RC_ASSERT(result.bound.flowtime_s <= flowtime_s(result.solution) + kRoundingCells);
+    RC_ASSERT(result.bound.makespan_s <= makespan_s(result.solution) + kRoundingCells);
+  });
+
+  passed &= property("static times are those of the shortest of all ways", [] {
+    const PlanCase plan_case = *any_case();
+    const Instance& instance = plan_case.instance;
+    RC_PRE(!instance.agents.empty() && instance.map.cell_count() <= 100);
+    note_case(plan_case);
+    const Agent& agent = instance.agents.front();
+    const LineOfSight line_of_sight(instance.map, agent.radius_cells);
+    AllWays ways(instance.map, line_of_sight);
+    const double shortest = ways.at(instance.map.index(agent.start), instance.map.index(agent.goal));
+    RC_PRE(shortest < kForever);
+    RC_CLASSIFY(shortest > distance(agent.start, agent.goal), "round a corner");
+    const double longest = shortest * *rc::gen::element(1.0, 1.1, 2.0);
+    const double found =
+        shortest_any_angle_cells(instance.map, line_of_sight, agent.start, agent.goal, longest);
+    RC_ASSERT(std::abs(found - shortest) <= kRoundingCells);
+  });
+
+  passed &=
+      property("static times over a neighbourhood: no longer than any plan, no shorter than straight", [] {
+        PlanCase plan_case = *any_case();
+        plan_case.options.any_angle = false;
+        const Instance& instance = plan_case.instance;
+        RC_PRE(!instance.agents.empty());
+        note_case(plan_case);
+        Instance alone = instance;
+        alone.agents.resize(1);
+        alone.obstacles.clear();
+        const PlanResult result = plan(alone, plan_case.options);
+        RC_PRE(result.status == PlanStatus::kSolved);
+        const Agent& agent = alone.agents.front();
+        const LineOfSight line_of_sight(alone.map, agent.radius_cells);
+        const double cells = shortest_grid_cells(alone.map, line_of_sight, agent.start, agent.goal,
+                                                 plan_case.options.connectedness);
+        RC_CLASSIFY(cells > distance(agent.start, agent.goal), "longer than straight");
+        // Without others SIPP on a grid is optimal.
+        RC_ASSERT(std::abs(cells / agent.speed_cells_per_s - makespan_s(result.solution)) <=
+                  kRoundingCells / agent.speed_cells_per_s);
+      });
+
+  return passed ? 0 : 1;
+}
