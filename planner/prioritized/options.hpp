@@ -19,11 +19,28 @@ enum class Rescheduling {
   kRandom,         ///< seeded shuffles, none tried twice
 };
 
-/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random".
+/// Who plans.
+enum class Method {
+  kPrioritized,  ///< one robot after the other, in priority order
+  kComplete,     ///< all robots at once on the grid of four neighbours: planner/complete/
+};
+
+/// What happens where prioritized planning ends without a plan, or at its limit.
+enum class Fallback {
+  kNone,      ///< report it
+  kComplete,  ///< Method::kComplete plans
+};
+
+/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random";
+/// "prioritized", "complete"; "none", "complete".
 std::string_view name(InitialOrder order);
 std::string_view name(Rescheduling rescheduling);
+std::string_view name(Method method);
+std::string_view name(Fallback fallback);
 std::optional<InitialOrder> parse_initial_order(std::string_view text);
 std::optional<Rescheduling> parse_rescheduling(std::string_view text);
+std::optional<Method> parse_method(std::string_view text);
+std::optional<Fallback> parse_fallback(std::string_view text);
 
 inline constexpr double kInfiniteSsi = std::numeric_limits<double>::infinity();
 /// The time span of the paper's Table 1, in seconds.
@@ -47,6 +64,10 @@ struct PlannerOptions {
   double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
   std::uint64_t max_expansions = UINT64_MAX;  ///< over all tries
   std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first
+
+  Method method = Method::kPrioritized;
+  /// The limits hold for it anew: it begins where they have struck.
+  Fallback fallback = Fallback::kNone;
 };
 
 }  // namespace sipplab
