@@ -56,12 +56,14 @@ SolutionDocument document_of(const PlanResult& result, const PlannerOptions& opt
   document.generations = result.statistics.generations;
   document.planning_seconds = result.planning_seconds;
   document.options = options;
+  document.made_by = std::string(name(result.made_by));
   if (result.status != PlanStatus::kSolved) return document;
   document.valid = true;
   document.solution = result.solution;
   document.makespan_s = makespan_s(result.solution);
   document.flowtime_s = flowtime_s(result.solution);
   document.plan_hash = plan_hash(result.solution);
+  document.ssi_kept_s = result.ssi_kept_s;
   return document;
 }
 
@@ -70,6 +72,13 @@ std::string summary(const SolutionDocument& document, std::size_t robots) {
                                  document.valid ? ", valid" : "", robots);
   if (document.makespan_s) text += fmt::format("makespan    {:.3f} s\n", *document.makespan_s);
   if (document.flowtime_s) text += fmt::format("flowtime    {:.3f} s\n", *document.flowtime_s);
+  if (document.made_by == name(Method::kComplete)) {
+    text += "made by     the complete planner\n";
+    if (document.ssi_kept_s) {
+      text += fmt::format("ssi kept    {} of {} s\n", format_ssi(*document.ssi_kept_s),
+                          format_ssi(document.options->ssi_s));
+    }
+  }
   return text + fmt::format("tries       {}\nexpansions  {}\nplanning    {:.3f} s\n", document.tries,
                             document.expansions, document.planning_seconds);
 }
@@ -113,10 +122,11 @@ int run_plan(const PlanArguments& arguments) {
   PlannerOptions options;
   apply(loaded->options, options);
   arguments.planner.apply_to(options);
+  if (const auto line = beyond_complete(instance, options)) return fail(kBadUsage, "sipplab: " + *line);
 
   const PlanResult result = plan(instance, options);
   if (result.status == PlanStatus::kSolved) {
-    const ValidationReport report = validate(instance, result.solution, {options.ssi_s, result.order()});
+    const ValidationReport report = validate(instance, result.solution, {result.ssi_kept_s, result.order()});
     if (!report.valid()) return report_invalid(arguments, instance, result, report, options);
   }
 

@@ -4,6 +4,7 @@
 
 #include "bench/cli/console.hpp"
 #include "bench/sweep/shard.hpp"
+#include "planner/complete/complete_planner.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
@@ -11,6 +12,8 @@ namespace {
 
 constexpr const char* kRescheduleNames = "none, deterministic, random or ejection";
 constexpr const char* kOrderNames = "fifo, shortest, longest or random";
+constexpr const char* kMethodNames = "prioritized or complete";
+constexpr const char* kFallbackNames = "none or complete";
 constexpr int kMinConnectedness = 2;
 constexpr int kMaxConnectedness = 5;
 
@@ -93,6 +96,7 @@ void PlannerFlags::add_to(CLI::App& command) {
       ->type_name("S");
   command.add_option("--max-expansions", max_expansions_, "nodes expanded, over all tries");
   command.add_option("--max-restarts", max_restarts_, "tries after the first");
+  add_method_flags(command, method_, fallback_);
 }
 
 void PlannerFlags::apply_to(PlannerOptions& options) const {
@@ -105,6 +109,16 @@ void PlannerFlags::apply_to(PlannerOptions& options) const {
   if (time_limit_) options.time_limit_s = parse_time_limit_s(*time_limit_);
   if (max_expansions_) options.max_expansions = *max_expansions_;
   if (max_restarts_) options.max_restarts = *max_restarts_;
+  if (method_) options.method = parse_method(*method_).value_or(options.method);
+  if (fallback_) options.fallback = parse_fallback(*fallback_).value_or(options.fallback);
+}
+
+std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options) {
+  const bool asked_for = options.method == Method::kComplete || options.fallback == Fallback::kComplete;
+  if (!asked_for) return std::nullopt;
+  const std::optional<InstanceError> error = find_beyond_complete(instance);
+  if (!error) return std::nullopt;
+  return error->what + ", expected " + error->expected;
 }
 
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
@@ -112,6 +126,19 @@ void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
   command.add_flag_function(
       "--any-angle,!--no-any-angle", [&any_angle](std::int64_t count) { any_angle = count > 0; },
       "straight moves between any two cells");
+}
+
+void add_method_flags(CLI::App& command, std::optional<std::string>& method,
+                      std::optional<std::string>& fallback) {
+  command.add_option("--method", method, "who plans: " + std::string(kMethodNames))
+      ->check([](const std::string& text) { return parse_method(text) ? "" : expected(text, kMethodNames); })
+      ->type_name("METHOD");
+  command
+      .add_option("--fallback", fallback,
+                  "who plans where that failed or met a limit: " + std::string(kFallbackNames))
+      ->check(
+          [](const std::string& text) { return parse_fallback(text) ? "" : expected(text, kFallbackNames); })
+      ->type_name("METHOD");
 }
 
 void PictureFlags::add_to(CLI::App& command, const std::string& words) {

@@ -27,7 +27,7 @@ class InstanceFlags {
 };
 
 /// --ssi, --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
-/// --max-expansions, --max-restarts: each empty unless the user gave it.
+/// --max-expansions, --max-restarts, --method, --fallback: each empty unless the user gave it.
 class PlannerFlags {
  public:
   void add_to(CLI::App& command);
@@ -45,7 +45,13 @@ class PlannerFlags {
   std::optional<std::string> time_limit_;
   std::optional<std::uint64_t> max_expansions_;
   std::optional<std::uint64_t> max_restarts_;
+  std::optional<std::string> method_;
+  std::optional<std::string> fallback_;
 };
+
+/// Why the complete planner, which the options name, cannot plan this instance, in one line;
+/// none where they do not name it or it can.
+std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options);
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
@@ -65,6 +71,9 @@ double parse_time_limit_s(std::string_view text);
 
 /// --any-angle and --no-any-angle; empty unless the user gave one of them.
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
+/// --method and --fallback; empty unless the user gave them.
+void add_method_flags(CLI::App& command, std::optional<std::string>& method,
+                      std::optional<std::string>& fallback);
 
 /// --svg, with `words` for help, and --animate.
 struct PictureFlags {

@@ -113,6 +113,7 @@ int run_validate(const ValidateArguments& arguments) {
 
   ValidationOptions options;
   if (document.options) options.ssi_s = document.options->ssi_s;
+  if (document.ssi_kept_s) options.ssi_s = *document.ssi_kept_s;  // all that it promises
   if (arguments.ssi) options.ssi_s = parse_ssi(*arguments.ssi).value_or(0);
   if (options.ssi_s > 0) options.order = document.order;
   if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded->instance.agents.empty()) {

@@ -68,6 +68,27 @@ says '"valid": false'
 expect 1 plan --instance swap.xml --max-expansions 1 --json
 says '"status": "limit"'
 
+# Robots that meet in a corridor with one bay: prioritized planning fails, the fallback does not.
+printf '<root><agents number="2"><agent start.x="0" start.y="0" goal.x="4" goal.y="0"/><agent start.x="4" start.y="0" goal.x="0" goal.y="0"/></agents><map><grid width="5" height="2"><row>0 0 0 0 0</row><row>1 1 0 1 1</row></grid></map></root>' >bay.xml
+expect 1 plan --instance bay.xml --reschedule none
+for format in xml json; do
+  expect 0 plan --instance bay.xml --reschedule none --fallback complete -o "bay.$format.out" --format "$format"
+  says '^made by     the complete planner'
+  expect 0 validate --instance bay.xml --solution "bay.$format.out"
+  says '^valid.*start-safe interval [0-9.]+ kept'
+done
+says '"made_by": "complete"' bay.json.out
+expect 0 plan --instance bay.xml --method complete --json
+says '"tries": 1,'
+expect 0 plan --instance warehouse/0.xml --fallback complete --json
+says '"made_by": "prioritized"'
+expect 1 plan --instance swap.xml --fallback complete
+says '^status      failed'
+sed 's/<agent /<agent movespeed="2" /' bay.xml >fast.xml
+refused 'speed 1, expected the speed of agent 0, 2, for the complete planner' plan --instance fast.xml --fallback complete
+refused "'greedy', expected none or complete" plan --instance bay.xml --fallback greedy
+refused "'greedy', expected prioritized or complete" plan --instance bay.xml --method greedy
+
 # --- the history ------------------------------------------------------------------
 
 expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --connectedness 2 --count 2 --db history.db

@@ -29,8 +29,11 @@ struct SolutionDocument {
   std::uint64_t generations = 0;
   double planning_seconds = 0;
   std::string plan_hash;
+  std::string made_by;  ///< "prioritized", "complete"; empty where it is not known
+  /// The promise of start-safe intervals holds for `order` in [0, ssi_kept_s].
+  std::optional<double> ssi_kept_s;
   /// What it was planned with. Kept by JSON (extra keys at the end: "ssi", "reschedule",
-  /// "initial_order", "any_angle", "connectedness", "seed") and XML; limits are not.
+  /// "initial_order", "any_angle", "connectedness", "seed") and XML; limits and methods are not.
   std::optional<PlannerOptions> options;
 };
 

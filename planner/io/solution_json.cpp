@@ -75,13 +75,17 @@ void append_trajectory(std::string& out, const Agent& agent, const Trajectory& t
   out += "]}";
 }
 
-void append_options(std::string& out, const PlannerOptions& options) {
-  out += ",\n  \"ssi\": ";
-  if (std::isinf(options.ssi_s)) {
+void append_ssi(std::string& out, double ssi_s) {
+  if (std::isinf(ssi_s)) {
     out += "\"inf\"";
   } else {
-    append_number(out, options.ssi_s);
+    append_number(out, ssi_s);
   }
+}
+
+void append_options(std::string& out, const PlannerOptions& options) {
+  out += ",\n  \"ssi\": ";
+  append_ssi(out, options.ssi_s);
   out += ",\n  \"reschedule\": \"" + std::string(name(options.rescheduling)) + "\"";
   out += ",\n  \"initial_order\": \"" + std::string(name(options.order)) + "\"";
   out += std::string(",\n  \"any_angle\": ") + (options.any_angle ? "true" : "false");
@@ -124,6 +128,14 @@ std::string solution_to_json(const Instance& instance, const SolutionDocument& d
   }
   out += trajectories.empty() ? "]" : "\n  ]";
   if (document.options) append_options(out, *document.options);
+  if (!document.made_by.empty()) {
+    out += ",\n  \"made_by\": ";
+    append_string(out, document.made_by);
+  }
+  if (document.ssi_kept_s) {
+    out += ",\n  \"ssi_kept\": ";
+    append_ssi(out, *document.ssi_kept_s);
+  }
   out += "\n}\n";
   return out;
 }

@@ -149,16 +149,21 @@ void read_order(JsonReader& reader, const json& document, const Instance& instan
   }
 }
 
+/// None where there is no such key.
+std::optional<double> read_ssi(JsonReader& reader, const json& document, const char* key) {
+  const json* ssi = reader.find(document, key);
+  if (!ssi) return std::nullopt;
+  if (ssi->is_string() && ssi->get<std::string>() == "inf") return kInfiniteSsi;
+  const double ssi_s = reader.number(document, key, "");
+  if (ssi_s < 0) reader.fail(key, "a number from 0, or \"inf\"");
+  return ssi_s;
+}
+
 void read_planner_options(JsonReader& reader, const json& document, SolutionDocument& result) {
-  const json* ssi = reader.find(document, "ssi");
-  if (!ssi) return;
+  const std::optional<double> ssi_s = read_ssi(reader, document, "ssi");
+  if (!ssi_s) return;
   PlannerOptions options;
-  if (ssi->is_string() && ssi->get<std::string>() == "inf") {
-    options.ssi_s = kInfiniteSsi;
-  } else {
-    options.ssi_s = reader.number(document, "ssi", "");
-    if (options.ssi_s < 0) reader.fail("ssi", "a number from 0, or \"inf\"");
-  }
+  options.ssi_s = *ssi_s;
   const auto rescheduling = parse_rescheduling(reader.text(document, "reschedule", "none"));
   const auto order = parse_initial_order(reader.text(document, "initial_order", "fifo"));
   if (!rescheduling) reader.fail("reschedule", "none, deterministic, random or ejection");
@@ -208,6 +213,8 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
   read_order(reader, document, instance, result.order);
   read_trajectories(reader, document, instance, result.status == "solved", result.solution);
   read_planner_options(reader, document, result);
+  result.made_by = reader.text(document, "made_by", "");
+  result.ssi_kept_s = read_ssi(reader, document, "ssi_kept");
   if (reader.error()) return Unexpected{*reader.error()};
   return result;
 }

@@ -37,6 +37,10 @@ void append_summary(std::string& out, const Instance& instance, const SolutionDo
   if (document.options) {
     append_attribute(out, "seed", std::string_view(std::to_string(document.options->seed)));
   }
+  if (!document.made_by.empty()) append_attribute(out, "madeby", std::string_view(document.made_by));
+  if (document.ssi_kept_s) {
+    append_attribute(out, "ssikept", std::string_view(format_ssi(*document.ssi_kept_s)));
+  }
   out += "/>\n";
 }
 
@@ -82,6 +86,13 @@ void read_summary(XmlReader& reader, xml_node summary, const Instance& instance,
   }
   document.valid = std::string_view(summary.attribute("valid").value()) == "true";
   document.plan_hash = reader.words(summary, "planhash");
+  document.made_by = reader.words(summary, "madeby");
+  if (const auto ssi_kept = summary.attribute("ssikept")) {
+    document.ssi_kept_s = parse_ssi(ssi_kept.value());
+    if (!document.ssi_kept_s) {
+      reader.fail(summary, "ssikept " + in_quotes(ssi_kept.value()), "seconds from 0, or inf");
+    }
+  }
   if (const auto seed = summary.attribute("seed"); seed && document.options) {
     document.options->seed = seed.as_ullong();
   }

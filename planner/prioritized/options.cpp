@@ -22,6 +22,16 @@ constexpr std::array<std::pair<Rescheduling, std::string_view>, 4> kRescheduling
     {Rescheduling::kEjection, "ejection"},
 }};
 
+constexpr std::array<std::pair<Method, std::string_view>, 2> kMethodNames = {{
+    {Method::kPrioritized, "prioritized"},
+    {Method::kComplete, "complete"},
+}};
+
+constexpr std::array<std::pair<Fallback, std::string_view>, 2> kFallbackNames = {{
+    {Fallback::kNone, "none"},
+    {Fallback::kComplete, "complete"},
+}};
+
 template <class Names, class Value>
 std::string_view name_in(const Names& names, Value value) {
   for (const auto& [known, text] : names) {
@@ -42,6 +52,8 @@ std::optional<Value> parse_with(const Names& names, std::string_view text) {
 
 std::string_view name(InitialOrder order) { return name_in(kOrderNames, order); }
 std::string_view name(Rescheduling rescheduling) { return name_in(kReschedulingNames, rescheduling); }
+std::string_view name(Method method) { return name_in(kMethodNames, method); }
+std::string_view name(Fallback fallback) { return name_in(kFallbackNames, fallback); }
 
 std::optional<InitialOrder> parse_initial_order(std::string_view text) {
   return parse_with<InitialOrder>(kOrderNames, text);
@@ -49,6 +61,12 @@ std::optional<InitialOrder> parse_initial_order(std::string_view text) {
 
 std::optional<Rescheduling> parse_rescheduling(std::string_view text) {
   return parse_with<Rescheduling>(kReschedulingNames, text);
+}
+
+std::optional<Method> parse_method(std::string_view text) { return parse_with<Method>(kMethodNames, text); }
+
+std::optional<Fallback> parse_fallback(std::string_view text) {
+  return parse_with<Fallback>(kFallbackNames, text);
 }
 
 std::optional<double> parse_ssi(std::string_view text) {

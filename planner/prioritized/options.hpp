@@ -21,11 +21,28 @@ enum class Rescheduling {
   kEjection,       ///< the failed robot is planned and those in its way are planned again
 };
 
-/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random", "ejection".
+/// Who plans.
+enum class Method {
+  kPrioritized,  ///< one robot after the other, in priority order
+  kComplete,     ///< all robots at once on the grid of four neighbours: planner/complete/
+};
+
+/// What happens where prioritized planning ends without a plan, or at its limit.
+enum class Fallback {
+  kNone,      ///< report it
+  kComplete,  ///< Method::kComplete plans
+};
+
+/// "fifo", "shortest", "longest", "random"; "none", "deterministic", "random", "ejection";
+/// "prioritized", "complete"; "none", "complete".
 std::string_view name(InitialOrder order);
 std::string_view name(Rescheduling rescheduling);
+std::string_view name(Method method);
+std::string_view name(Fallback fallback);
 std::optional<InitialOrder> parse_initial_order(std::string_view text);
 std::optional<Rescheduling> parse_rescheduling(std::string_view text);
+std::optional<Method> parse_method(std::string_view text);
+std::optional<Fallback> parse_fallback(std::string_view text);
 
 inline constexpr double kInfiniteSsi = std::numeric_limits<double>::infinity();
 /// The time span of the paper's Table 1, in seconds.
@@ -51,6 +68,10 @@ struct PlannerOptions {
   std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first; ejections count as tries
   /// Set from outside, by a signal for one: ends planning as the time limit does.
   const std::atomic<bool>* stop = nullptr;
+
+  Method method = Method::kPrioritized;
+  /// The limits hold for it anew: it begins where they have struck.
+  Fallback fallback = Fallback::kNone;
 };
 
 }  // namespace sipplab

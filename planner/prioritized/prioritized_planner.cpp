@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/ejection.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "planner/prioritized/start_guard.hpp"
@@ -68,6 +69,7 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
 
   ReservationTable reservations(instance.map, largest_radius_cells(instance));
   PlanResult result;
+  result.ssi_kept_s = options.ssi_s;
   while (true) {
     Solution solution;
     solution.trajectories.resize(instance.agents.size());
@@ -96,10 +98,53 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   return result;
 }
 
+namespace {
+
+PlanStatus status_of(LacamStatus status) {
+  switch (status) {
+    case LacamStatus::kSolved:
+      return PlanStatus::kSolved;
+    case LacamStatus::kUnsolvable:
+      return PlanStatus::kFailed;
+    case LacamStatus::kLimit:
+      return PlanStatus::kLimit;
+  }
+  return PlanStatus::kFailed;
+}
+
+/// Goes on where `result` has no plan.
+void plan_all_at_once(const Instance& instance, const PlannerOptions& options, PlanResult& result) {
+  result.made_by = Method::kComplete;
+  if (find_beyond_complete(instance)) return;
+  CompleteOptions complete_options;
+  complete_options.seed = options.seed;
+  complete_options.ssi_s = options.ssi_s;
+  complete_options.max_steps = options.max_expansions;
+  complete_options.deadline = deadline_after(Clock::now(), options.time_limit_s);
+  CompleteResult complete = plan_complete(instance, complete_options);
+  result.status = status_of(complete.status);
+  result.statistics.expansions += complete.steps_tried;
+  result.statistics.generations += complete.configurations;
+  if (result.status != PlanStatus::kSolved) return;
+  result.solution = std::move(complete.solution);
+  result.trace.push_back({std::move(complete.order), std::nullopt, {}});
+  result.ssi_kept_s = complete.ssi_kept_s;
+}
+
+}  // namespace
+
 PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   const Clock::time_point begin = Clock::now();
-  SippSearch search(instance, {options.any_angle, options.connectedness});
-  PlanResult result = plan_prioritized(instance, options, search);
+  PlanResult result;
+  if (options.method == Method::kComplete) {
+    plan_all_at_once(instance, options, result);
+  } else {
+    SippSearch search(instance, {options.any_angle, options.connectedness});
+    result = plan_prioritized(instance, options, search);
+    if (result.status != PlanStatus::kSolved && options.fallback == Fallback::kComplete) {
+      plan_all_at_once(instance, options, result);
+    }
+  }
   result.planning_seconds = seconds_since(begin);
   return result;
 }

@@ -37,6 +37,11 @@ struct PlanResult {
   Solution solution;  ///< all trajectories when solved, else empty
   /// Every try in turn; the last one has the final order.
   std::vector<Try> trace;
+  Method made_by = Method::kPrioritized;  ///< who made the plan, or failed last
+  /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. As
+  /// long as it was asked for, except for plans of the complete planner, which makes them
+  /// first and then looks for the order that keeps the promise the longest.
+  double ssi_kept_s = 0;
   SearchStatistics statistics;  ///< over all tries
   double planning_seconds = 0;  ///< wall clock, planning alone
 
@@ -50,8 +55,12 @@ struct PlanResult {
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 
-/// The same with the planner that the options name: AA-SIPP, or SIPP where
-/// any_angle is false.
+/// The same with what the options name: AA-SIPP, or SIPP where any_angle is false; the
+/// complete planner as their method or as their fallback. What the latter does is counted as
+/// one more try, its steps as expansions and its configurations as generations.
+///
+/// REQUIRES: !find_beyond_complete(instance) where the options name the complete planner;
+/// else there is no plan of it.
 PlanResult plan(const Instance& instance, const PlannerOptions& options);
 
 }  // namespace sipplab

@@ -223,6 +223,8 @@ Told any_told() {
     document.flowtime_s = *any_real_between(0, 1e9);
     document.plan_hash = plan_hash(document.solution);
     document.valid = *rc::gen::arbitrary<bool>();
+    document.made_by = *rc::gen::element<std::string>("", "prioritized", "complete");
+    if (*rc::gen::arbitrary<bool>()) document.ssi_kept_s = *any_of({0.0, 2.5, 1.0 / 3, kInfiniteSsi});
   }
   for (AgentIndex i = told.instance.agents.size(); i > 0; --i) document.order.push_back(i - 1);
   document.tries = *rc::gen::arbitrary<std::uint32_t>();
@@ -272,6 +274,8 @@ void check_solution_survives(const Told& told, SolutionFormat format) {
   RC_ASSERT(read->generations == written.generations);
   RC_ASSERT(read->planning_seconds == written.planning_seconds);
   RC_ASSERT(read->plan_hash == written.plan_hash);
+  RC_ASSERT(read->made_by == written.made_by);
+  RC_ASSERT(read->ssi_kept_s == written.ssi_kept_s);
   check_options_survive(read->options, written.options);
 }
 

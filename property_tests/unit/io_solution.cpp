@@ -44,6 +44,8 @@ SolutionDocument awkward_document(const Instance& instance) {
   document.generations = 7;
   document.planning_seconds = 0.1 + 0.2;
   document.plan_hash = plan_hash(document.solution);
+  document.made_by = "complete";
+  document.ssi_kept_s = 1 + third;
   document.options.emplace();
   document.options->ssi_s = 2.5;
   document.options->order = InitialOrder::kLongestFirst;
@@ -67,6 +69,8 @@ void expect_equal(const SolutionDocument& read, const SolutionDocument& written)
   EXPECT_EQ(read.generations, written.generations);
   EXPECT_EQ(read.planning_seconds, written.planning_seconds);
   EXPECT_EQ(read.plan_hash, written.plan_hash);
+  EXPECT_EQ(read.made_by, written.made_by);
+  EXPECT_EQ(read.ssi_kept_s, written.ssi_kept_s);
   ASSERT_EQ(read.options.has_value(), written.options.has_value());
   if (!read.options) return;
   EXPECT_EQ(read.options->ssi_s, written.options->ssi_s);
@@ -112,10 +116,11 @@ TEST(IoSolution, JsonIsTheDocumentedDocument) {
   const auto document = nlohmann::ordered_json::parse(text);
   std::vector<std::string> keys;
   for (const auto& item : document.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"status", "valid", "robots", "makespan", "flowtime", "tries",
-                                            "expansions", "generations", "planning_seconds", "plan_hash",
-                                            "order", "trajectories", "ssi", "reschedule", "initial_order",
-                                            "any_angle", "connectedness", "seed"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{
+                      "status",    "valid",         "robots",      "makespan",         "flowtime",
+                      "tries",     "expansions",    "generations", "planning_seconds", "plan_hash",
+                      "order",     "trajectories",  "ssi",         "reschedule",       "initial_order",
+                      "any_angle", "connectedness", "seed",        "made_by",          "ssi_kept"}));
   EXPECT_EQ(document["trajectories"][0]["id"], 0);
   EXPECT_EQ(document["trajectories"][2]["id"], "007");
   EXPECT_EQ(document["trajectories"][2].dump(), R"({"id":"007","radius":0.4,"speed":2,"motions":[]})");

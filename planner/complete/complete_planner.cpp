@@ -1,0 +1,80 @@
+#include "planner/complete/complete_planner.hpp"
+
+#include <fmt/format.h>
+
+#include "planner/complete/schedule.hpp"
+#include "planner/complete/start_order.hpp"
+#include "planner/core/tolerances.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Bytes of configurations and constraints: with what the plan takes after the search, less
+/// than the 4 GiB that a small machine has.
+constexpr std::size_t kMaxSearchBytes = std::size_t{2} << 30;
+
+/// Cells. Bodies up to this size stay apart on unit moves that share no cell.
+constexpr double kLargestRadiusCells = 0.5;
+
+std::string name_of(const Instance& instance, AgentIndex agent) {
+  const std::string& id = instance.agents[agent].id;
+  return "agent " + (id.empty() ? std::to_string(agent) : id);
+}
+
+}  // namespace
+
+std::optional<InstanceError> find_beyond_complete(const Instance& instance) {
+  if (!instance.obstacles.empty()) {
+    return InstanceError{std::nullopt, std::size_t{0}, "the instance has dynamic obstacles",
+                         "none for the complete planner"};
+  }
+  for (AgentIndex i = 0; i < instance.agents.size(); ++i) {
+    const Agent& agent = instance.agents[i];
+    if (agent.radius_cells > kLargestRadiusCells + kTouchDepthCells) {
+      return InstanceError{i, std::nullopt,
+                           fmt::format("{}: radius {}", name_of(instance, i), agent.radius_cells),
+                           fmt::format("at most {} for the complete planner", kLargestRadiusCells)};
+    }
+    const double speed = instance.agents.front().speed_cells_per_s;
+    if (agent.speed_cells_per_s != speed) {
+      return InstanceError{
+          i, std::nullopt, fmt::format("{}: speed {}", name_of(instance, i), agent.speed_cells_per_s),
+          fmt::format("the speed of {}, {}, for the complete planner", name_of(instance, 0), speed)};
+    }
+  }
+  return std::nullopt;
+}
+
+CompleteResult plan_complete(const Instance& instance, const CompleteOptions& options) {
+  const FreeGrid grid(instance.map);
+  Configuration starts;
+  Configuration goals;
+  for (const Agent& agent : instance.agents) {
+    starts.push_back(grid.id(agent.start));
+    goals.push_back(grid.id(agent.goal));
+  }
+  LacamLimits limits;
+  limits.max_steps = options.max_steps;
+  limits.max_memory_bytes = kMaxSearchBytes;
+  limits.deadline = options.deadline;
+  LacamResult search = search_lacam(grid, starts, goals, options.seed, limits);
+
+  CompleteResult result;
+  result.status = search.status;
+  result.steps_tried = search.steps_tried;
+  result.configurations = search.configurations;
+  if (search.status != LacamStatus::kSolved) return result;
+
+  Visits visits(search.steps, grid.size());
+  search.steps.clear();
+  visits.remove_round_trips();
+  const std::vector<ExactTime> arrivals = earliest_arrivals(grid, visits);
+  const double unit_move_s = instance.agents.empty() ? 1 : 1 / instance.agents.front().speed_cells_per_s;
+  result.solution = timed_motions(grid, visits, arrivals, unit_move_s);
+  StartOrder kept = longest_kept_order(instance, visits, arrivals, options.ssi_s);
+  result.order = std::move(kept.order);
+  result.ssi_kept_s = kept.kept_s;
+  return result;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,47 @@
+// A plan for every instance that has one on the grid of four neighbours, at any density: the
+// method for instances that are too crowded for prioritized planning. Discrete steps of all
+// robots at once (lacam.hpp), then motions in continuous time (schedule.hpp).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "planner/complete/lacam.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/solution/solution.hpp"
+
+namespace sipplab {
+
+struct CompleteOptions {
+  std::uint64_t seed = 1;  ///< of ties between cells
+  double ssi_s = 0;        ///< the order that is looked for keeps the promise at most as long
+  std::uint64_t max_steps = UINT64_MAX;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+};
+
+struct CompleteResult {
+  LacamStatus status = LacamStatus::kLimit;
+  Solution solution;              ///< empty unless solved
+  std::vector<AgentIndex> order;  ///< as is `order`
+  double ssi_kept_s = 0;
+  std::uint64_t steps_tried = 0;
+  std::uint64_t configurations = 0;
+};
+
+/// What lies beyond the model of plan_complete: a robot with a radius over 0.5, robots of
+/// different speeds, a dynamic obstacle. One line; none where it can be planned.
+/// REQUIRES: !find_error(instance).
+std::optional<InstanceError> find_beyond_complete(const Instance& instance);
+
+/// Plans all robots at once by unit moves between four neighbours, with waits.
+///  (1) Solved exactly when there is such a plan, unless a limit strikes: time, steps, or
+///      kMaxSearchBytes of memory. kUnsolvable is a proof.
+///  (2) The solution is valid; the promise of start-safe intervals holds for `order` in
+///      [0, ssi_kept_s], and for no order longer (or as long as it was wanted).
+///  (3) The same instance and options give the same result unless time is up.
+/// No robot waits longer than the order of visits to each cell demands.
+/// REQUIRES: !find_error(instance) and !find_beyond_complete(instance).
+CompleteResult plan_complete(const Instance& instance, const CompleteOptions& options);
+
+}  // namespace sipplab

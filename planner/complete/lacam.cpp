@@ -1,0 +1,230 @@
+#include "planner/complete/lacam.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace sipplab {
+namespace {
+
+using NodeId = std::uint32_t;
+constexpr NodeId kNoNode = UINT32_MAX;
+
+/// Steps, as multiples of the longest way: how long a first search may take before another
+/// one with other ties begins, which then has twice as long. Times of search have a long tail:
+/// on the empty map of 32 x 32 cells with 950 robots half of the searches take four times the
+/// longest way, some a hundred times. Doubling keeps the search complete.
+constexpr std::uint64_t kPatience = 8;
+constexpr std::uint64_t kLeastPatienceSteps = 256;
+
+/// Constraints on one step out of a configuration: this one and those of all ancestors in
+/// the configuration's tree of constraints. [LC22], section 3.
+struct ConstraintNode {
+  std::uint32_t parent = 0;
+  std::uint32_t depth = 0;  ///< robots constrained; 0 for the root
+  StepConstraint constraint;
+};
+
+/// A configuration, and which of its steps were tried.
+struct Node {
+  Configuration cells;
+  /// Steps since each robot was last at its goal: who is late goes first. [PIBT].
+  std::vector<std::uint32_t> late_steps;
+  NodeId parent = kNoNode;
+  std::vector<ConstraintNode> constraints;  ///< breadth first
+  std::size_t next_constraint = 0;
+};
+
+/// Equal configurations have equal hashes; others seldom do.
+std::uint64_t hash_of(const Configuration& cells) {
+  constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio, odd
+  std::uint64_t hash = cells.size();
+  for (const CellId cell : cells) {
+    hash = (hash ^ cell) * kFactor;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+bool is_late(const LacamLimits& limits) {
+  return limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline;
+}
+
+/// Unit moves from each start to its goal; none where some goal cannot be reached.
+std::optional<std::vector<std::uint32_t>> way_lengths(GoalDistances& distances, const Configuration& starts) {
+  std::vector<std::uint32_t> lengths;
+  for (RobotId robot = 0; robot < starts.size(); ++robot) {
+    const auto length = distances.first_distance(robot, starts[robot]);
+    if (!length) return std::nullopt;
+    lengths.push_back(*length);
+  }
+  return lengths;
+}
+
+/// One search from the starts.
+class Search {
+ public:
+  /// All must outlive this. `longest_first`: the robots, those with long ways first.
+  Search(const FreeGrid& grid, GoalDistances& distances, const Configuration& starts,
+         const Configuration& goals, const std::vector<RobotId>& longest_first, std::uint64_t seed)
+      : grid_(grid),
+        goals_(goals),
+        pibt_(grid, distances, seed),
+        rank_(starts.size()),
+        order_(longest_first) {
+    for (std::uint32_t i = 0; i < longest_first.size(); ++i) rank_[longest_first[i]] = i;
+    add_node(starts, std::vector<std::uint32_t>(starts.size(), 0), kNoNode);
+  }
+
+  LacamResult run(const LacamLimits& limits) {
+    LacamResult result;
+    result.status = search(limits);
+    if (result.status == LacamStatus::kSolved) result.steps = way_to(stack_.back());
+    result.steps_tried = steps_tried_;
+    result.configurations = nodes_.size();
+    return result;
+  }
+
+ private:
+  LacamStatus search(const LacamLimits& limits) {
+    Configuration next;
+    while (!stack_.empty()) {
+      const NodeId id = stack_.back();
+      if (nodes_[id].cells == goals_) return LacamStatus::kSolved;
+      if (nodes_[id].next_constraint == nodes_[id].constraints.size()) {
+        stack_.pop_back();  // all of its steps were tried
+        continue;
+      }
+      if (is_at_limit(limits)) return LacamStatus::kLimit;
+      ++steps_tried_;
+      sort_robots(id);
+      Node& node = nodes_[id];
+      const auto entry = static_cast<std::uint32_t>(node.next_constraint++);
+      const StepOutcome outcome = pibt_.make_step(node.cells, order_, constraints_of(node, entry), next);
+      if (outcome != StepOutcome::kContradiction) add_children(node, entry);
+      if (outcome != StepOutcome::kFound) continue;
+      const NodeId known = find_node(next);
+      if (known != kNoNode) {
+        stack_.push_back(known);  // go on from there: [LC22], section 3.3
+      } else {
+        add_node(next, lateness_after(node, next), id);
+      }
+    }
+    return LacamStatus::kUnsolvable;
+  }
+
+  bool is_at_limit(const LacamLimits& limits) const {
+    return steps_tried_ >= limits.max_steps || memory_bytes_ > limits.max_memory_bytes || is_late(limits);
+  }
+
+  /// Puts the robots of a configuration in the order in which they choose.
+  void sort_robots(NodeId id) {
+    if (std::exchange(sorted_for_, id) == id) return;
+    const std::vector<std::uint32_t>& late_steps = nodes_[id].late_steps;
+    std::sort(order_.begin(), order_.end(), [&](RobotId a, RobotId b) {
+      return late_steps[a] != late_steps[b] ? late_steps[a] > late_steps[b] : rank_[a] < rank_[b];
+    });
+  }
+
+  /// Adds the children of an entry of the tree of constraints: one for each cell that the
+  /// next robot in order can be in.
+  void add_children(Node& node, std::uint32_t entry) {
+    const std::uint32_t depth = node.constraints[entry].depth;
+    if (depth == order_.size()) return;
+    const RobotId robot = order_[depth];
+    const CellId here = node.cells[robot];
+    const std::size_t before = node.constraints.size();
+    for (const CellId cell : grid_.neighbours(here)) {
+      node.constraints.push_back({entry, depth + 1, {robot, cell}});
+    }
+    node.constraints.push_back({entry, depth + 1, {robot, here}});
+    memory_bytes_ += (node.constraints.size() - before) * sizeof(ConstraintNode);
+  }
+
+  std::vector<StepConstraint> constraints_of(const Node& node, std::uint32_t entry) const {
+    std::vector<StepConstraint> constraints;
+    while (node.constraints[entry].depth > 0) {
+      constraints.push_back(node.constraints[entry].constraint);
+      entry = node.constraints[entry].parent;
+    }
+    return constraints;
+  }
+
+  std::vector<std::uint32_t> lateness_after(const Node& node, const Configuration& next) const {
+    std::vector<std::uint32_t> late_steps = node.late_steps;
+    for (RobotId robot = 0; robot < next.size(); ++robot) {
+      late_steps[robot] = next[robot] == goals_[robot] ? 0 : late_steps[robot] + 1;
+    }
+    return late_steps;
+  }
+
+  void add_node(const Configuration& cells, std::vector<std::uint32_t> late_steps, NodeId parent) {
+    const auto id = static_cast<NodeId>(nodes_.size());
+    nodes_.push_back({cells, std::move(late_steps), parent, {ConstraintNode{}}, 0});
+    ids_.emplace(hash_of(cells), id);
+    stack_.push_back(id);
+    memory_bytes_ += sizeof(Node) + 2 * cells.size() * sizeof(CellId);
+  }
+
+  NodeId find_node(const Configuration& cells) const {
+    const auto [begin, end] = ids_.equal_range(hash_of(cells));
+    for (auto it = begin; it != end; ++it) {
+      if (nodes_[it->second].cells == cells) return it->second;
+    }
+    return kNoNode;
+  }
+
+  std::vector<Configuration> way_to(NodeId id) {
+    std::vector<Configuration> steps;
+    for (; id != kNoNode; id = nodes_[id].parent) steps.push_back(std::move(nodes_[id].cells));
+    std::reverse(steps.begin(), steps.end());
+    return steps;
+  }
+
+  const FreeGrid& grid_;
+  const Configuration& goals_;
+  Pibt pibt_;
+  std::vector<std::uint32_t> rank_;  ///< by robot: 0 for the longest way
+  std::vector<RobotId> order_;
+  NodeId sorted_for_ = kNoNode;
+  std::deque<Node> nodes_;
+  std::unordered_multimap<std::uint64_t, NodeId> ids_;  ///< by hash of the configuration
+  std::vector<NodeId> stack_;
+  std::uint64_t steps_tried_ = 0;
+  std::size_t memory_bytes_ = 0;
+};
+
+}  // namespace
+
+LacamResult search_lacam(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
+                         std::uint64_t seed, const LacamLimits& limits) {
+  LacamResult result;
+  GoalDistances distances(grid, goals);
+  const auto lengths = way_lengths(distances, starts);
+  if (!lengths) {
+    result.status = LacamStatus::kUnsolvable;
+    return result;
+  }
+  std::vector<RobotId> longest_first(starts.size());
+  std::iota(longest_first.begin(), longest_first.end(), RobotId{0});
+  std::stable_sort(longest_first.begin(), longest_first.end(),
+                   [&](RobotId a, RobotId b) { return (*lengths)[a] > (*lengths)[b]; });
+  const std::uint32_t longest = starts.empty() ? 0 : (*lengths)[longest_first.front()];
+  Random seeds(seed);
+  std::uint64_t patience = std::max(kLeastPatienceSteps, kPatience * longest);
+  while (true) {
+    const std::uint64_t left = limits.max_steps - result.steps_tried;
+    LacamLimits attempt = limits;
+    attempt.max_steps = std::min(left, patience);
+    const std::uint64_t tried_before = result.steps_tried;
+    result = Search(grid, distances, starts, goals, longest_first, seeds.next()).run(attempt);
+    const bool impatient = result.status == LacamStatus::kLimit && result.steps_tried == patience;
+    result.steps_tried += tried_before;
+    if (!impatient || patience == left || is_late(limits)) return result;
+    patience *= 2;
+  }
+}
+
+}  // namespace sipplab

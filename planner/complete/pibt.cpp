@@ -1,0 +1,196 @@
+#include "planner/complete/pibt.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sipplab {
+
+Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, std::uint64_t seed)
+    : grid_(grid),
+      distances_(distances),
+      random_(seed),
+      robot_at_(grid.size(), kNoRobot),
+      taken_by_(grid.size(), kNoRobot) {}
+
+StepOutcome Pibt::make_step(const Configuration& now, std::span<const RobotId> order,
+                            std::span<const StepConstraint> constraints, Configuration& next) {
+  now_ = &now;
+  next_ = &next;
+  next.assign(now.size(), kNoCell);
+  for (RobotId robot = 0; robot < now.size(); ++robot) robot_at_[now[robot]] = robot;
+
+  StepOutcome outcome = assign_all(constraints) ? StepOutcome::kFound : StepOutcome::kContradiction;
+  for (std::size_t i = 0; outcome == StepOutcome::kFound && i < order.size(); ++i) {
+    if (!is_assigned(order[i]) && !move(order[i])) outcome = StepOutcome::kNotFound;
+  }
+
+  for (RobotId robot = 0; robot < now.size(); ++robot) {
+    robot_at_[now[robot]] = kNoRobot;
+    if (is_assigned(robot)) taken_by_[next[robot]] = kNoRobot;
+  }
+  return outcome;
+}
+
+bool Pibt::assign_all(std::span<const StepConstraint> constraints) {
+  for (const StepConstraint& constraint : constraints) {
+    if (taken_by_[constraint.cell] != kNoRobot) return false;
+    if (closes_ring((*now_)[constraint.robot], constraint.cell)) return false;
+    assign(constraint.robot, constraint.cell);
+  }
+  return true;
+}
+
+/// A stack instead of recursion: a row of pushed robots can be as long as there are robots.
+bool Pibt::move(RobotId root) {
+  choices_.clear();
+  choices_.push_back(begin_choice(root));
+  while (!choices_.empty()) {
+    Choice& choice = choices_.back();
+    if (!reserve_candidate(choice)) {
+      assign(choice.robot, (*now_)[choice.robot]);  // in vain: whoever pushed it tries another cell
+      choices_.pop_back();
+      continue;
+    }
+    const RobotId pushed = robot_in_the_way(choice);
+    if (pushed != kNoRobot) {
+      choices_.push_back(begin_choice(pushed));
+      continue;
+    }
+    // The last of the row found a cell, so all of them did.
+    for (std::size_t i = choices_.size(); i-- > 0;) pull_swap_partner(choices_[i]);
+    return true;
+  }
+  return false;
+}
+
+Pibt::Choice Pibt::begin_choice(RobotId robot) {
+  // Nearer cells, the robot's own, then farther ones; ties by chance.
+  constexpr std::uint32_t kNearer = 0;
+  constexpr std::uint32_t kOwn = 1;
+  constexpr std::uint32_t kFarther = 2;
+  constexpr unsigned kTieBits = 15;
+  constexpr std::uint64_t kTieMask = (1u << kTieBits) - 1;
+  const CellId here = (*now_)[robot];
+  std::uint64_t ties = random_.next();
+  Choice choice;
+  choice.robot = robot;
+  std::array<std::uint32_t, kMaxCandidates> ranks{};
+  const auto insert = [&](std::uint32_t rank, CellId cell) {
+    std::uint32_t at = choice.count++;
+    for (; at > 0 && ranks[at - 1] > rank; --at) {
+      ranks[at] = ranks[at - 1];
+      choice.candidates[at] = choice.candidates[at - 1];
+    }
+    ranks[at] = rank;
+    choice.candidates[at] = cell;
+  };
+  insert(kOwn << kTieBits, here);
+  for (const CellId cell : grid_.neighbours(here)) {
+    const std::uint32_t rank = distances_.is_nearer(robot, here, cell) ? kNearer : kFarther;
+    insert((rank << kTieBits) | static_cast<std::uint32_t>(ties & kTieMask), cell);
+    ties >>= kTieBits;
+  }
+
+  choice.swap_partner = swap_partner(robot, choice.candidates[0]);
+  if (choice.swap_partner != kNoRobot) {
+    std::reverse(choice.candidates.begin(), choice.candidates.begin() + choice.count);
+  }
+  return choice;
+}
+
+bool Pibt::reserve_candidate(Choice& choice) {
+  const CellId here = (*now_)[choice.robot];
+  while (choice.tried < choice.count) {
+    const CellId cell = choice.candidates[choice.tried++];
+    if (taken_by_[cell] != kNoRobot || closes_ring(here, cell)) continue;
+    assign(choice.robot, cell);
+    return true;
+  }
+  return false;
+}
+
+RobotId Pibt::robot_in_the_way(const Choice& choice) const {
+  const RobotId other = robot_at_[(*next_)[choice.robot]];
+  return other == choice.robot || other == kNoRobot || is_assigned(other) ? kNoRobot : other;
+}
+
+/// Follows the moves assigned so far from the wanted cell; a ring is closed where they come
+/// back to the robot that wants it. Two robots that change places are the smallest ring.
+bool Pibt::closes_ring(CellId from, CellId to) const {
+  while (to != from) {
+    const RobotId robot = robot_at_[to];
+    if (robot == kNoRobot || !is_assigned(robot) || (*next_)[robot] == to) return false;
+    to = (*next_)[robot];
+    if (to == from) return true;
+  }
+  return false;
+}
+
+/// [LC23]: the partner follows at once, so that the two get out of the narrow place together.
+void Pibt::pull_swap_partner(const Choice& choice) {
+  const RobotId partner = choice.swap_partner;
+  if (partner == kNoRobot || choice.tried != 1 || is_assigned(partner)) return;
+  const CellId left = (*now_)[choice.robot];
+  if (taken_by_[left] != kNoRobot || closes_ring((*now_)[partner], left)) return;
+  assign(partner, left);
+}
+
+/// [LC23], "swap_possible_and_required".
+RobotId Pibt::swap_partner(RobotId robot, CellId wanted) const {
+  const CellId here = (*now_)[robot];
+  if (wanted == here) return kNoRobot;
+  const RobotId opposite = robot_at_[wanted];
+  if (opposite != kNoRobot && !is_assigned(opposite) && is_swap_required(robot, opposite, here, wanted) &&
+      is_swap_possible(here, wanted)) {
+    return opposite;
+  }
+  // The robot may have to clear the way for one beside it.
+  for (const CellId cell : grid_.neighbours(here)) {
+    const RobotId beside = robot_at_[cell];
+    if (beside == kNoRobot || cell == wanted) continue;
+    if (is_swap_required(beside, robot, here, wanted) && is_swap_possible(here, wanted)) return beside;
+  }
+  return kNoRobot;
+}
+
+/// Ways out of the puller's cell other than to the pusher, dead ends whose robot has arrived
+/// left out.
+Pibt::SideStep Pibt::side_steps(CellId pusher_cell, CellId puller_cell) const {
+  SideStep steps;
+  for (const CellId cell : grid_.neighbours(puller_cell)) {
+    if (cell == pusher_cell) continue;
+    const RobotId robot = robot_at_[cell];
+    const bool settled = robot != kNoRobot && distances_.goal(robot) == cell;
+    if (settled && grid_.neighbours(cell).size() == 1) continue;
+    ++steps.ways;
+    steps.cell = cell;
+  }
+  return steps;
+}
+
+/// Whether the pusher, following the puller along a narrow place, comes to want its place.
+bool Pibt::is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, CellId puller_cell) const {
+  while (distances_.is_nearer(pusher, pusher_cell, puller_cell)) {
+    const SideStep steps = side_steps(pusher_cell, puller_cell);
+    if (steps.ways >= 2) return false;
+    if (steps.ways == 0) break;
+    pusher_cell = std::exchange(puller_cell, steps.cell);
+  }
+  return distances_.is_nearer(puller, puller_cell, pusher_cell) &&
+         (pusher_cell == distances_.goal(pusher) || distances_.is_nearer(pusher, pusher_cell, puller_cell));
+}
+
+/// Whether the pusher, pulling its partner away from where it wants to go, comes to a place
+/// where the two can pass each other.
+bool Pibt::is_swap_possible(CellId pusher_cell, CellId puller_cell) const {
+  const CellId begin = pusher_cell;
+  while (puller_cell != begin) {
+    const SideStep steps = side_steps(pusher_cell, puller_cell);
+    if (steps.ways >= 2) return true;
+    if (steps.ways == 0) return false;
+    pusher_cell = std::exchange(puller_cell, steps.cell);
+  }
+  return false;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,102 @@
+// One step of all robots at once, in discrete time: priority inheritance with backtracking.
+// [PIBT]: Okumura, Machida, Defago and Tamura, Artificial Intelligence 310, 2022;
+// [LC23]: Okumura, IJCAI 2023, section 4 (swaps in narrow places).
+// Differs from both: a closed ring of robots never turns. Robots of radius 0.5 that fill a
+// ring of cells cannot turn it without overlap, so that such a step has no plan in
+// continuous time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/complete/goal_distances.hpp"
+#include "planner/core/random.hpp"
+
+namespace sipplab {
+
+/// The cell of each robot at one time step.
+using Configuration = std::vector<CellId>;
+
+inline constexpr RobotId kNoRobot = UINT32_MAX;
+
+/// Where one robot has to be after the step.
+struct StepConstraint {
+  RobotId robot = 0;
+  CellId cell = 0;
+};
+
+enum class StepOutcome {
+  kFound,
+  kNotFound,       ///< the robots got into each other's way; other constraints may do
+  kContradiction,  ///< the constraints alone break the rules, and so do they with more of them
+};
+
+class Pibt {
+ public:
+  /// Both must outlive this. O(cells).
+  Pibt(const FreeGrid& grid, GoalDistances& distances, std::uint64_t seed);
+
+  /// Moves each robot to a neighbour of its cell or leaves it where it is, so that
+  ///  (1) no two robots end in one cell;
+  ///  (2) no robots move in a closed ring, so that no two change places either (following a
+  ///      robot into the cell that it leaves is fine);
+  ///  (3) each constraint is met;
+  ///  (4) where all robots are constrained and (1) and (2) allow it, a step is found.
+  /// Robots choose in the given order, nearer cells first. `next` is worthless unless
+  /// a step was found.
+  ///
+  /// REQUIRES: `order` holds each robot once; constraints name different robots, and cells
+  /// that these can be in after one step. O(robots) unless rows of robots push each other.
+  StepOutcome make_step(const Configuration& now, std::span<const RobotId> order,
+                        std::span<const StepConstraint> constraints, Configuration& next);
+
+ private:
+  static constexpr std::size_t kMaxCandidates = 5;  ///< four neighbours and its own cell
+
+  /// A robot that is choosing its cell.
+  struct Choice {
+    RobotId robot = 0;
+    RobotId swap_partner = kNoRobot;
+    std::uint32_t tried = 0;
+    std::uint32_t count = 0;
+    std::array<CellId, kMaxCandidates> candidates{};
+  };
+
+  bool assign_all(std::span<const StepConstraint> constraints);
+  bool move(RobotId root);
+  Choice begin_choice(RobotId robot);
+  /// Reserves the next candidate that is free to take. False where none is left.
+  bool reserve_candidate(Choice& choice);
+  /// The robot that has to give way to the candidate reserved last; kNoRobot for none.
+  RobotId robot_in_the_way(const Choice& choice) const;
+  void pull_swap_partner(const Choice& choice);
+
+  void assign(RobotId robot, CellId cell) {
+    (*next_)[robot] = cell;
+    taken_by_[cell] = robot;
+  }
+  bool is_assigned(RobotId robot) const { return (*next_)[robot] != kNoCell; }
+  bool closes_ring(CellId from, CellId to) const;
+
+  RobotId swap_partner(RobotId robot, CellId wanted) const;
+  bool is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, CellId puller_cell) const;
+  bool is_swap_possible(CellId pusher_cell, CellId puller_cell) const;
+  struct SideStep {
+    std::size_t ways = 0;  ///< out of the puller's cell, other than to the pusher
+    CellId cell = kNoCell;
+  };
+  SideStep side_steps(CellId pusher_cell, CellId puller_cell) const;
+
+  const FreeGrid& grid_;
+  GoalDistances& distances_;
+  Random random_;
+  const Configuration* now_ = nullptr;
+  Configuration* next_ = nullptr;
+  std::vector<RobotId> robot_at_;  ///< by cell, before the step
+  std::vector<RobotId> taken_by_;  ///< by cell, after the step
+  std::vector<Choice> choices_;    ///< each robot after the first is in the way of the one before
+};
+
+}  // namespace sipplab

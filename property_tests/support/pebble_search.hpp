@@ -1,0 +1,20 @@
+// Whether robots on a grid of four neighbours can get to their goals by moving one at a time
+// into free cells: all arrangements that can be reached, one after the other. Shares nothing
+// with planner/complete. Robots that follow each other at once can do so one at a time, the
+// first one first, so that nothing more can be reached by that, unless a closed ring turns.
+#pragma once
+
+#include "planner/instance/instance.hpp"
+
+namespace sipplab {
+
+/// Arrangements that pebble_search_is_small accepts: some milliseconds.
+inline constexpr double kMostArrangements = 6'000;
+
+/// Whether the number of arrangements of the robots on free cells is small enough.
+bool pebble_search_is_small(const Instance& instance);
+
+/// REQUIRES: pebble_search_is_small(instance).
+bool is_solvable_by_pebbles(const Instance& instance);
+
+}  // namespace sipplab
