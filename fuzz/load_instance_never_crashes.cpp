@@ -106,7 +106,6 @@ void check_loaded(const LoadedInstance& loaded) {
                 "equal instances, different hashes");
   PlannerOptions options;
   apply(loaded.options, options);
-  unplanned_features(loaded.options);
   if (loaded.instance.map.cell_count() <= kMostCellsDrawn) draw_svg(loaded.instance, {});
 }
 

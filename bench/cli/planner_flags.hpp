@@ -26,8 +26,24 @@ class InstanceFlags {
   InstanceFiles files_;
 };
 
+/// --turns, --wait-before-move, --inflate-distance, --inflate-time: each empty unless the user gave it.
+class MotionFlags {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Overwrites the rules that the user gave.
+  void apply_to(MotionRules& rules) const;
+
+ private:
+  std::optional<bool> turns_;
+  std::optional<double> wait_before_move_s_;
+  std::optional<double> inflate_distance_cells_;
+  std::optional<double> inflate_time_s_;
+};
+
 /// --ssi, --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
-/// --max-expansions, --max-restarts: each empty unless the user gave it.
+/// --max-expansions, --max-restarts, and those of MotionFlags: each empty unless the user
+/// gave it.
 class PlannerFlags {
  public:
   void add_to(CLI::App& command);
@@ -45,6 +61,7 @@ class PlannerFlags {
   std::optional<std::string> time_limit_;
   std::optional<std::uint64_t> max_expansions_;
   std::optional<std::uint64_t> max_restarts_;
+  MotionFlags motion_;
 };
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
@@ -65,6 +82,8 @@ double parse_time_limit_s(std::string_view text);
 
 /// --any-angle and --no-any-angle; empty unless the user gave one of them.
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
+/// --turns and --no-turns, likewise.
+void add_turns_flag(CLI::App& command, std::optional<bool>& turns);
 
 /// --svg, with `words` for help, and --animate.
 struct PictureFlags {

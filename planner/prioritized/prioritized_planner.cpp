@@ -7,6 +7,7 @@
 #include "planner/core/assert.hpp"
 #include "planner/core/tolerances.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/search/turning_search.hpp"
 
 namespace sipplab {
 namespace {
@@ -145,7 +146,9 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   PriorityOrder first = initial_order(options.order, lengths_s, random);
   OrderSequence orders(options.rescheduling, std::move(first), random);
 
-  ReservationTable reservations(instance.map, largest_radius(instance));
+  const MotionRules& rules = options.rules;
+  ReservationTable reservations(instance.map, largest_radius(instance) + rules.inflate_distance_cells,
+                                rules.inflate_time_s);
   PlanResult result;
   while (true) {
     Solution solution;
@@ -177,8 +180,14 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
 
 PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   const Clock::time_point begin = Clock::now();
-  SippSearch search(instance, {options.any_angle, options.connectedness});
-  PlanResult result = plan_prioritized(instance, options, search);
+  PlanResult result;
+  if (options.rules.is_plain()) {
+    SippSearch search(instance, {options.any_angle, options.connectedness});
+    result = plan_prioritized(instance, options, search);
+  } else {
+    TurningSearch search(instance, {options.any_angle, options.connectedness, options.rules});
+    result = plan_prioritized(instance, options, search);
+  }
   result.planning_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return result;
 }

@@ -48,8 +48,8 @@ struct PlanResult {
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 
-/// The same with the planner that the options name: AA-SIPP, or SIPP where
-/// any_angle is false.
+/// The same with the planner that the options name: AA-SIPP, or SIPP where any_angle is
+/// false; with headings and delays where the rules ask for them.
 PlanResult plan(const Instance& instance, const PlannerOptions& options);
 
 }  // namespace sipplab
