@@ -85,7 +85,7 @@ Expected<TimedMotion, std::string> motion_of(const std::vector<std::string>& fie
   TimedMotion motion{*begin_s, *end_s, {numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
   if (fields.size() == kColumnsWithTurns && !trimmed(fields[kColumns]).empty()) {
     motion.turn_to_deg = parse_real(fields[kColumns]);
-    if (!motion.turn_to_deg) return Unexpected{"heading " + in_quotes(fields[kColumns])};
+    if (!motion.turn_to_deg) return Unexpected{"turn_to " + in_quotes(fields[kColumns])};
   }
   return motion;
 }
@@ -153,6 +153,9 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     }
     const Expected<TimedMotion, std::string> motion = motion_of(record.fields);
     if (!motion) return error(record.line, motion.error(), "a number");
+    if (motion->is_turn() && !motion->is_wait()) {
+      return error(record.line, "turn_to in a motion that changes place", "turns in place alone");
+    }
     Trajectory& trajectory = document.solution.trajectories[index];
     if (trajectory.motions.empty()) trajectory.start = motion->from;
     trajectory.motions.push_back(*motion);

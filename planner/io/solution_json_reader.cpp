@@ -98,6 +98,9 @@ Trajectory read_trajectory(JsonReader& reader, const json& value, const std::str
          {reader.coordinate(motion, "x0", here), reader.coordinate(motion, "y0", here)},
          {reader.coordinate(motion, "x1", here), reader.coordinate(motion, "y1", here)},
          reader.number_or_null(motion, "turn_to", here)});
+    if (trajectory.motions.back().is_turn() && !trajectory.motions.back().is_wait()) {
+      reader.fail_with(here + "turn_to in a motion that changes place", "turns in place alone");
+    }
     if (reader.error()) return trajectory;
   }
   if (!trajectory.motions.empty()) trajectory.start = trajectory.motions.front().from;

@@ -186,11 +186,16 @@ void append_sections(std::string& out, const Trajectory& trajectory, std::string
     append_attribute(out, "start.x", std::int64_t{motion.from.x});
     append_attribute(out, "start.y", std::int64_t{motion.from.y});
     if (!motion.is_wait()) now_deg = heading_deg(motion.from, motion.to);
-    if (start_heading_deg) append_attribute(out, "start.heading", now_deg);
+    const double before_deg = now_deg;
+    if (start_heading_deg) append_attribute(out, "start.heading", before_deg);
     append_attribute(out, "goal.x", std::int64_t{motion.to.x});
     append_attribute(out, "goal.y", std::int64_t{motion.to.y});
     now_deg = motion.turn_to_deg.value_or(now_deg);
     if (start_heading_deg) append_attribute(out, "goal.heading", now_deg);
+    // Else it would be read as a wait.
+    if (start_heading_deg && motion.is_turn() && now_deg == before_deg) {
+      append_attribute(out, "turn", std::string_view("true"));
+    }
     // Times may be any numbers here: a wrong solution is written as it is.
     const double duration_s = motion.end_s - motion.begin_s;
     append_attribute(out, "duration", std::isfinite(duration_s) ? duration_s : 0.0);

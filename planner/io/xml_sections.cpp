@@ -44,7 +44,7 @@ class HeadingReader {
     const double before_deg = now_deg_;
     if (!motion.is_wait()) {
       now_deg_ = heading_deg(motion.from, motion.to);
-    } else if (from_deg && to_deg && *from_deg != *to_deg) {
+    } else if (from_deg && to_deg && (*from_deg != *to_deg || section.attribute("turn"))) {
       now_deg_ = exact ? *to_deg : meant_by(section, *to_deg);
       motion.turn_to_deg = now_deg_;
     }
@@ -92,7 +92,7 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
   HeadingReader headings(reader, options);
   for (const xml_node section : node.children("section")) {
     reader.expect_only_attributes(section, {"id", "start.x", "start.y", "start.heading", "goal.x", "goal.y",
-                                            "goal.heading", "duration", "begin", "end"});
+                                            "goal.heading", "duration", "begin", "end", "turn"});
     TimedMotion motion;
     motion.from = read_cell(reader, section, "start.x", "start.y");
     motion.to = read_cell(reader, section, "goal.x", "goal.y");
@@ -127,7 +127,7 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
     if (!at) trajectory.start = motion.from;
     at = motion.to;
     now_s = motion.end_s;
-    const bool says_nothing = motion.is_wait() && motion.end_s == motion.begin_s;
+    const bool says_nothing = motion.is_wait() && !motion.is_turn() && motion.end_s == motion.begin_s;
     if (!says_nothing) trajectory.motions.push_back(motion);
   }
   return trajectory;

@@ -107,15 +107,17 @@ SolutionDocument turning_document(const Instance& instance) {
   document.options->rules.inflate_distance_cells = 1.0 / 3;
   document.options->rules.inflate_time_s = 2.0 / 3;
   const double third = 1.0 / 3;
-  document.solution.trajectories = {{{0, 0},
-                                     {{0, third, {0, 0}, {0, 0}, 315.0},
-                                      {third, 1, {0, 0}, {0, 0}},
-                                      {1, 2.5, {0, 0}, {1, 1}},
-                                      {2.5, 2.75, {1, 1}, {1, 1}},
-                                      {2.75, 3, {1, 1}, {1, 1}, heading_deg({1, 1}, {7, 2})},
-                                      {3, 3.5, {1, 1}, {7, 2}}}},
-                                    {{0, 2}, {}},
-                                    {{4, 3}, {{0, 0.5, {4, 3}, {4, 3}, 90.0}}}};
+  document.solution.trajectories = {
+      {{0, 0},
+       {{0, third, {0, 0}, {0, 0}, 315.0},
+        {third, 1, {0, 0}, {0, 0}},
+        {1, 2.5, {0, 0}, {1, 1}},
+        {2.5, 2.75, {1, 1}, {1, 1}},
+        {2.75, 3, {1, 1}, {1, 1}, heading_deg({1, 1}, {7, 2})},
+        {3, 3.5, {1, 1}, {7, 2}}}},
+      {{0, 2}, {}},
+      {{4, 3},
+       {{0, 0.5, {4, 3}, {4, 3}, 90.0}, {0.5, 1, {4, 3}, {4, 3}, 90.0}, {1, 1, {4, 3}, {4, 3}, 450.0}}}};
   document.plan_hash = plan_hash(document.solution);
   document.makespan_s = makespan_s(document.solution);
   document.flowtime_s = flowtime_s(document.solution);
@@ -136,6 +138,19 @@ TEST(IoSolution, TurnsAndRulesSurviveTheRoundTripBitByBit) {
   const Input<SolutionDocument> read = parse_solution(csv, "s", instance);
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->solution, document.solution);
+}
+
+TEST(IoSolution, TurnsOnTheMoveAreRefused) {
+  const Instance instance = awkward_instance();
+  EXPECT_EQ(
+      error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 0, "y0": 0, "x1": 1,
+                       "y1": 0, "turn_to": 0}]}]})",
+               instance),
+      "s: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place alone");
+  EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,1,0,90\n", instance),
+            "s:2: turn_to in a motion that changes place, expected turns in place alone");
+  EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,0,0,up\n", instance),
+            "s:2: turn_to 'up', expected a number");
 }
 
 TEST(IoSolution, ATurnIsPartOfWhatAPlanIsCalled) {
