@@ -18,7 +18,7 @@ constexpr double kGenerousLimitS = 20;
 constexpr double kQuickLimitS = 10;
 
 /// Any-angle over 8 neighbours: what the authors ran.
-constexpr PlannerMode kPaperPlanner{true, 3};
+constexpr PlannerMode kPaperPlanner{true, 3, {}};
 
 Suite smoke() {
   Suite suite;
@@ -35,7 +35,7 @@ Suite smoke() {
        {2.5, kInfiniteSsi},
        {kDeterministic},
        {InitialOrder::kFifo, InitialOrder::kLongestFirst, InitialOrder::kRandom},
-       {{true, 2}, {false, 2}, {false, 3}, {false, 5}}},
+       {{true, 2, {}}, {false, 2, {}}, {false, 3, {}}, {false, 5, {}}}},
   };
   return suite;
 }
@@ -67,6 +67,27 @@ Suite density() {
       {kEmpty, {16, 64, 128, 192, 256}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
       {kWarehouse, {16, 32, 64, 96, 128}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
   };
+  return suite;
+}
+
+/// Robots of four sizes and three speeds, with and without turning, at densities from sparse
+/// to crowded for bodies wider than a cell.
+Suite mixed() {
+  Suite suite;
+  suite.name = "mixed";
+  suite.purpose = "robots of sizes 0.3 to 1.4 and speeds 0.5 to 2, with and without turning";
+  suite.instances = 10;
+  suite.time_limit_s = kGenerousLimitS;
+  suite.max_restarts = 30;
+  SuiteBlock open{kEmpty, {8, 16, 32, 48}, {0, 5}, {kNone, kDeterministic}};
+  MotionRules turning;
+  turning.turns = true;
+  open.planners = {{true, 3, {}}, {true, 3, turning}, {false, 3, turning}};
+  open.bodies = {{0.3, 0.5, 0.9, 1.4}, {0.5, 1, 2}, true};
+  SuiteBlock shelves{kWarehouse, {8, 16, 24}, {0, 5}, {kNone, kDeterministic}};
+  shelves.planners = open.planners;
+  shelves.bodies = open.bodies;
+  suite.blocks = {open, shelves};
   return suite;
 }
 
@@ -124,7 +145,8 @@ Suite adversarial() {
 }  // namespace
 
 const std::vector<Suite>& suites() {
-  static const std::vector<Suite> all = {smoke(), gate(), density(), paper(), paper_quick(), adversarial()};
+  static const std::vector<Suite> all = {smoke(), gate(),        density(),    mixed(),
+                                         paper(), paper_quick(), adversarial()};
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/instance/agent.hpp"
 #include "planner/prioritized/options.hpp"
 
 namespace sipplab::bench {
@@ -15,6 +16,16 @@ namespace sipplab::bench {
 struct PlannerMode {
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours
+  MotionRules rules = {};
+};
+
+/// What the robots of generated instances are like; see GeneratorOptions.
+struct Bodies {
+  std::vector<double> radii_cells = {kDefaultRadiusCells};
+  std::vector<double> speeds_cells_per_s = {kDefaultSpeedCellsPerS};
+  bool headings = false;
+
+  friend bool operator==(const Bodies&, const Bodies&) = default;
 };
 
 struct SuiteBlock {
@@ -26,6 +37,7 @@ struct SuiteBlock {
   std::vector<PlannerMode> planners = {PlannerMode{}};
   /// Seeds tried on each instance where the re-scheduling or the order is random.
   std::uint64_t random_seeds = 1;
+  Bodies bodies = {};
 };
 
 struct Suite {
@@ -42,7 +54,7 @@ struct Suite {
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, paper, paper-quick, adversarial.
+/// smoke, gate, density, mixed, paper, paper-quick, adversarial.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

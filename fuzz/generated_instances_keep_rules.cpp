@@ -30,8 +30,11 @@ GeneratorOptions read_options(std::istringstream& words) {
     if (word == "agents") words >> options.agents;
     if (word == "seed") words >> options.seed;
     if (word == "index") words >> options.index;
-    if (word == "radius") words >> options.radius_cells;
-    if (word == "speed") words >> options.speed_cells_per_s;
+    if (word == "radius") words >> options.radii_cells.front();
+    if (word == "speed") words >> options.speeds_cells_per_s.front();
+    if (word == "or-radius") words >> options.radii_cells.emplace_back();
+    if (word == "or-speed") words >> options.speeds_cells_per_s.emplace_back();
+    if (word == "headings") options.headings = true;
   }
   return options;
 }

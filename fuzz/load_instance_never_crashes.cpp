@@ -127,7 +127,6 @@ void check_loaded(const LoadedInstance& loaded) {
                 "equal instances, different hashes");
   PlannerOptions options;
   apply(loaded.options, options);
-  unplanned_features(loaded.options);
   check_parts(loaded.instance, options);
   if (loaded.instance.map.cell_count() <= kMostCellsDrawn) draw_svg(loaded.instance, {});
 }

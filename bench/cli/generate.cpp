@@ -30,8 +30,10 @@ struct GenerateArguments {
   std::uint64_t agents = 0;
   std::uint64_t count = 1;
   std::uint64_t seed = 1;
-  std::optional<std::string> radius;
-  std::optional<std::string> speed;
+  std::vector<std::string> radii;
+  std::vector<std::string> speeds;
+  std::vector<std::string> rotation_speeds;
+  bool headings = false;
   std::string format = "xml";
   std::string folder;
   bool json = false;
@@ -55,9 +57,14 @@ GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint
   options.agents = arguments.agents;
   options.seed = arguments.seed;
   options.index = index;
-  if (arguments.radius) options.radius_cells = parse_real(*arguments.radius).value_or(kDefaultRadiusCells);
-  if (arguments.speed)
-    options.speed_cells_per_s = parse_real(*arguments.speed).value_or(kDefaultSpeedCellsPerS);
+  const auto replace_default = [](const std::vector<std::string>& given, std::vector<double>& values) {
+    if (!given.empty()) values.clear();
+    for (const std::string& value : given) values.push_back(parse_real(value).value_or(0));
+  };
+  replace_default(arguments.radii, options.radii_cells);
+  replace_default(arguments.speeds, options.speeds_cells_per_s);
+  replace_default(arguments.rotation_speeds, options.rotation_speeds);
+  options.headings = arguments.headings;
   return options;
 }
 
@@ -113,12 +120,13 @@ Command add_generate_command(CLI::App& program) {
   command->add_option("--seed", arguments->seed, "of maps, starts and goals")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
-  command->add_option("--radius", arguments->radius, "cells; default 0.5")
-      ->check(check_positive_real)
-      ->type_name("R");
-  command->add_option("--speed", arguments->speed, "cells per second; default 1")
-      ->check(check_positive_real)
-      ->type_name("V");
+  const auto add_values = [command](const char* name, std::vector<std::string>& values, const char* words) {
+    command->add_option(name, values, words)->delimiter(',')->check(check_positive_real)->type_name("X,..");
+  };
+  add_values("--radius", arguments->radii, "cells; drawn from these for each robot; default 0.5");
+  add_values("--speed", arguments->speeds, "cells per second; default 1");
+  add_values("--rotation-speed", arguments->rotation_speeds, "half turns per second; default 1");
+  command->add_flag("--headings", arguments->headings, "draw start and goal headings and rotation speeds");
   command->add_option("--format", arguments->format, "xml, or movingai (.map and .scen)")
       ->check(CLI::IsMember({"xml", "movingai"}))
       ->capture_default_str();

@@ -27,7 +27,6 @@ struct PlanArguments {
   std::optional<std::string> output;
   PictureFlags picture;
   bool json = false;
-  bool ignore_unsupported = false;
 };
 
 /// What -o means without --format: the file's extension, else XML.
@@ -35,16 +34,6 @@ SolutionFormat output_format(const PlanArguments& arguments) {
   if (arguments.format) return parse_solution_format(*arguments.format).value_or(SolutionFormat::kXml);
   const std::string_view path = arguments.output ? *arguments.output : std::string_view{};
   return parse_solution_format(path.substr(path.find_last_of('.') + 1)).value_or(SolutionFormat::kXml);
-}
-
-/// The one line for features that a file asks for and that are not there yet.
-std::optional<std::string> unsupported(const FileOptions& options) {
-  std::string features;
-  for (const std::string& feature : unplanned_features(options)) {
-    features += (features.empty() ? "" : ", ") + feature;
-  }
-  if (features.empty()) return std::nullopt;
-  return "the input asks for " + features + ", not there yet";
 }
 
 SolutionDocument document_of(const PlanResult& result, const PlannerOptions& options) {
@@ -113,12 +102,6 @@ int run_plan(const PlanArguments& arguments) {
   const Expected<LoadedInstance, std::string> loaded = arguments.instance.load();
   if (!loaded) return fail(kBadUsage, loaded.error());
   const Instance& instance = loaded->instance;
-  if (const auto line = unsupported(loaded->options)) {
-    if (!arguments.ignore_unsupported) {
-      return fail(kBadUsage, "sipplab: " + *line + "; --ignore-unsupported plans without");
-    }
-    diagnose("warning: " + *line + "; planned without");
-  }
   PlannerOptions options;
   apply(loaded->options, options);
   arguments.planner.apply_to(options);
@@ -126,7 +109,8 @@ int run_plan(const PlanArguments& arguments) {
 
   const PlanResult result = plan(instance, options);
   if (result.status == PlanStatus::kSolved) {
-    const ValidationReport report = validate(instance, result.solution, {result.ssi_kept_s, result.order()});
+    const ValidationReport report =
+        validate(instance, result.solution, {result.ssi_kept_s, result.order(), options.rules});
     if (!report.valid()) return report_invalid(arguments, instance, result, report, options);
   }
 
@@ -164,8 +148,6 @@ Command add_plan_command(CLI::App& program) {
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");
   arguments->picture.add_to(*command, "draw the solution there");
   command->add_flag("--json", arguments->json, "print one JSON document");
-  command->add_flag("--ignore-unsupported", arguments->ignore_unsupported,
-                    "plan although the input asks for features that are not there yet");
   return {command, [arguments] { return run_plan(*arguments); }};
 }
 

@@ -21,6 +21,14 @@ std::string expected(const std::string& text, const std::string& what) {
   return in_quotes(text) + ", expected " + what;
 }
 
+/// A flag and its opposite, empty unless the user gave one of them. By way of a function: a
+/// flag bound to an optional would count from 0, which is false.
+void add_yes_or_no(CLI::App& command, const std::string& names, std::optional<bool>& choice,
+                   const std::string& words) {
+  command.add_flag_function(
+      names, [&choice](std::int64_t count) { choice = count > 0; }, words);
+}
+
 }  // namespace
 
 std::string check_ssi(const std::string& text) {
@@ -76,6 +84,26 @@ Expected<LoadedInstance, std::string> InstanceFlags::load() const {
   return std::move(*loaded);
 }
 
+void MotionFlags::add_to(CLI::App& command) {
+  add_turns_flag(command, turns_);
+  const auto add_margin = [&command](const char* name, std::optional<double>& margin, const char* unit,
+                                     const char* words) {
+    command.add_option(name, margin, words)->check(CLI::Range(0.0, kMaxMotionMargin))->type_name(unit);
+  };
+  add_margin("--wait-before-move", wait_before_move_s_, "S", "seconds that a robot stands before each move");
+  add_margin("--inflate-distance", inflate_distance_cells_, "CELLS",
+             "cells that a moving robot stays away beyond the radii; inflatecollisionintervals of files");
+  add_margin("--inflate-time", inflate_time_s_, "S",
+             "seconds in which nobody is where another one was or will be");
+}
+
+void MotionFlags::apply_to(MotionRules& rules) const {
+  if (turns_) rules.turns = *turns_;
+  if (wait_before_move_s_) rules.wait_before_move_s = *wait_before_move_s_;
+  if (inflate_distance_cells_) rules.inflate_distance_cells = *inflate_distance_cells_;
+  if (inflate_time_s_) rules.inflate_time_s = *inflate_time_s_;
+}
+
 void PlannerFlags::add_to(CLI::App& command) {
   command.add_option("--ssi", ssi_, "start-safe interval in seconds, or inf")
       ->check(check_ssi)
@@ -97,6 +125,7 @@ void PlannerFlags::add_to(CLI::App& command) {
   command.add_option("--max-expansions", max_expansions_, "nodes expanded, over all tries");
   command.add_option("--max-restarts", max_restarts_, "tries after the first");
   add_method_flags(command, method_, fallback_);
+  motion_.add_to(command);
 }
 
 void PlannerFlags::apply_to(PlannerOptions& options) const {
@@ -111,6 +140,7 @@ void PlannerFlags::apply_to(PlannerOptions& options) const {
   if (max_restarts_) options.max_restarts = *max_restarts_;
   if (method_) options.method = parse_method(*method_).value_or(options.method);
   if (fallback_) options.fallback = parse_fallback(*fallback_).value_or(options.fallback);
+  motion_.apply_to(options.rules);
 }
 
 std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options) {
@@ -122,10 +152,11 @@ std::optional<std::string> beyond_complete(const Instance& instance, const Plann
 }
 
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
-  // By way of a function: a flag bound to an optional would count from 0, which is false.
-  command.add_flag_function(
-      "--any-angle,!--no-any-angle", [&any_angle](std::int64_t count) { any_angle = count > 0; },
-      "straight moves between any two cells");
+  add_yes_or_no(command, "--any-angle,!--no-any-angle", any_angle, "straight moves between any two cells");
+}
+
+void add_turns_flag(CLI::App& command, std::optional<bool>& turns) {
+  add_yes_or_no(command, "--turns,!--no-turns", turns, "robots have headings, and turning takes time");
 }
 
 void add_method_flags(CLI::App& command, std::optional<std::string>& method,

@@ -26,8 +26,24 @@ class InstanceFlags {
   InstanceFiles files_;
 };
 
+/// --turns, --wait-before-move, --inflate-distance, --inflate-time: each empty unless the user gave it.
+class MotionFlags {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Overwrites the rules that the user gave.
+  void apply_to(MotionRules& rules) const;
+
+ private:
+  std::optional<bool> turns_;
+  std::optional<double> wait_before_move_s_;
+  std::optional<double> inflate_distance_cells_;
+  std::optional<double> inflate_time_s_;
+};
+
 /// --ssi, --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
-/// --max-expansions, --max-restarts, --method, --fallback: each empty unless the user gave it.
+/// --max-expansions, --max-restarts, --method, --fallback, and those of MotionFlags: each empty
+/// unless the user gave it.
 class PlannerFlags {
  public:
   void add_to(CLI::App& command);
@@ -47,6 +63,7 @@ class PlannerFlags {
   std::optional<std::uint64_t> max_restarts_;
   std::optional<std::string> method_;
   std::optional<std::string> fallback_;
+  MotionFlags motion_;
 };
 
 /// Why the complete planner, which the options name, cannot plan this instance, in one line;
@@ -74,6 +91,8 @@ void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
 /// --method and --fallback; empty unless the user gave them.
 void add_method_flags(CLI::App& command, std::optional<std::string>& method,
                       std::optional<std::string>& fallback);
+/// --turns and --no-turns, likewise.
+void add_turns_flag(CLI::App& command, std::optional<bool>& turns);
 
 /// --svg, with `words` for help, and --animate.
 struct PictureFlags {

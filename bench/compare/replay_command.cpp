@@ -26,11 +26,26 @@ std::optional<std::uint64_t> number_after(std::string_view text, std::string_vie
   return value;
 }
 
+/// What `sipplab generate` needs besides for robots that are not as usual: words of the
+/// instance's name behind its index.
+std::string body_flags(std::string_view name) {
+  std::string flags;
+  for (const std::string_view word : {"radius", "speed"}) {
+    const std::size_t at = name.find(fmt::format(" {}:", word));
+    if (at == std::string_view::npos) continue;
+    const std::string_view values = name.substr(at + word.size() + 2);
+    flags += fmt::format(" --{} {}", word, values.substr(0, values.find(' ')));
+  }
+  if (name.find(" headings") != std::string_view::npos) flags += " --headings";
+  return flags;
+}
+
 std::string planner_flags(const db::CaseInfo& parameters) {
   std::string flags =
       fmt::format("--ssi {} --reschedule {} --order {} --connectedness {}", format_ssi(parameters.ssi_s),
                   parameters.reschedule, parameters.order, parameters.connectedness);
   if (!parameters.any_angle) flags += " --no-any-angle";
+  flags += rules_flags(parameters.planner);
   flags += fmt::format(" --seed {}", parameters.seed);
   if (parameters.max_restarts < db::kNoCountLimit) {
     flags += fmt::format(" --max-restarts {}", parameters.max_restarts);
@@ -57,9 +72,9 @@ std::string replay_command(const db::CaseInfo& parameters, const std::string& in
   if (parameters.map_spec == "files" || !index || !seed) {
     return plan(instance_name);
   }
-  return fmt::format("sipplab generate --map {} --agents {} --seed {} --count {} -o replay {} {}",
-                     parameters.map_spec, parameters.robots, *seed, *index + 1, is_ours ? "&&" : "and",
-                     plan(fmt::format("replay/{}.xml", *index)));
+  return fmt::format("sipplab generate --map {} --agents {} --seed {} --count {}{} -o replay {} {}",
+                     parameters.map_spec, parameters.robots, *seed, *index + 1, body_flags(instance_name),
+                     is_ours ? "&&" : "and", plan(fmt::format("replay/{}.xml", *index)));
 }
 
 }  // namespace sipplab::bench

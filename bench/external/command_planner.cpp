@@ -169,7 +169,8 @@ std::string ending(const ProgramRun& run) {
 }
 
 /// The row for a solution that was found; `path` as its messages name it.
-void judge(const Instance& instance, const fs::path& path, double rounding, db::ResultRow& row) {
+void judge(const Instance& instance, const MotionRules& rules, const fs::path& path, double rounding,
+           db::ResultRow& row) {
   constexpr auto kReject = [](db::ResultRow& rejected, std::string why) {
     rejected.status = db::ResultStatus::kInvalid;
     rejected.valid = false;
@@ -189,7 +190,7 @@ void judge(const Instance& instance, const fs::path& path, double rounding, db::
   }
   row.status = db::ResultStatus::kSolved;
   add_solution(document->solution, row);
-  add_verdict(instance, document->solution, {}, row, rounding);
+  add_verdict(instance, document->solution, {0, {}, rules}, row, rounding);
 }
 
 }  // namespace
@@ -249,7 +250,7 @@ db::ResultRow CommandPlanner::run(const Instance& instance, const PlannerOptions
   } else if (run.signal != 0 || run.exit_code > kShellSignalBase) {
     row.message = ending(run) + last_words(log);
   } else if (const auto solution = solution_file(folder)) {
-    judge(instance, *solution, spec_.rounding, row);
+    judge(instance, options.rules, *solution, spec_.rounding, row);
   } else {
     row.message = "left no solution, " + ending(run) + last_words(log);
   }

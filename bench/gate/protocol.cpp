@@ -43,6 +43,10 @@ json to_json(const PlannerOptions& options) {
           {"ssi", format_ssi(options.ssi_s)},
           {"any_angle", options.any_angle},
           {"connectedness", options.connectedness},
+          {"turns", options.rules.turns},
+          {"wait_before_move", options.rules.wait_before_move_s},
+          {"inflate_distance", options.rules.inflate_distance_cells},
+          {"inflate_time", options.rules.inflate_time_s},
           {"seed", options.seed},
           {"max_expansions", options.max_expansions},
           {"max_restarts", options.max_restarts}};
@@ -60,6 +64,11 @@ Expected<PlannerOptions, std::string> options_from_json(const json& object) {
     options.ssi_s = *ssi_s;
     options.any_angle = object.at("any_angle").get<bool>();
     options.connectedness = object.at("connectedness").get<int>();
+    // A build that is older than the rules says nothing of them.
+    options.rules.turns = object.value("turns", false);
+    options.rules.wait_before_move_s = object.value("wait_before_move", 0.0);
+    options.rules.inflate_distance_cells = object.value("inflate_distance", 0.0);
+    options.rules.inflate_time_s = object.value("inflate_time", 0.0);
     options.seed = object.at("seed").get<std::uint64_t>();
     options.max_expansions = object.at("max_expansions").get<std::uint64_t>();
     options.max_restarts = object.at("max_restarts").get<std::uint64_t>();

@@ -47,6 +47,7 @@ CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner) {
   }
   ValidationOptions options;
   options.ssi_s = plan_case.options.ssi_s;
+  options.rules = plan_case.options.rules;
   options.order = verdict.result.order();
   verdict.report = validate(plan_case.instance, verdict.result.solution, options);
   verdict.holds = verdict.report.valid();

@@ -25,13 +25,19 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
   replace_unless_empty(block.reschedules, request.reschedules);
   replace_unless_empty(block.orders, request.orders);
   if (!request.connectedness.empty()) {
-    const bool any_angle = block.planners.front().any_angle;
+    PlannerMode mode = block.planners.front();
     block.planners.clear();
-    for (const int k : request.connectedness) block.planners.push_back({any_angle, k});
+    for (const int k : request.connectedness) {
+      mode.connectedness = k;
+      block.planners.push_back(mode);
+    }
   }
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
   if (request.any_angle) {
     for (PlannerMode& planner : block.planners) planner.any_angle = *request.any_angle;
+  }
+  if (request.turns) {
+    for (PlannerMode& planner : block.planners) planner.rules.turns = *request.turns;
   }
   return block;
 }
@@ -66,6 +72,7 @@ class Expansion {
             options.ssi_s = ssi_s;
             options.any_angle = planner.any_angle;
             options.connectedness = planner.connectedness;
+            options.rules = planner.rules;
             add_seeds(block, set, options);
           }
         }
@@ -78,15 +85,17 @@ class Expansion {
     return sweep_.sets.size() - 1;
   }
 
-  /// The set of a map and a number of robots, made when it is first asked for.
-  Expected<std::size_t, std::string> generated_set(const std::string& map, std::size_t robots,
+  /// The set of a map, bodies and a number of robots, made when it is first asked for.
+  Expected<std::size_t, std::string> generated_set(const SuiteBlock& block, std::size_t robots,
                                                    std::uint64_t count) {
     for (std::size_t i = 0; i < generated_.size(); ++i) {
-      if (generated_[i].first == map && sweep_.sets[i].robots == robots) return i;
+      const auto& [map, bodies] = generated_[i];
+      if (map == block.map && bodies == block.bodies && sweep_.sets[i].robots == robots) return i;
     }
-    Expected<InstanceSet, std::string> set = generate_set(map, robots, count, request_.seed);
+    Expected<InstanceSet, std::string> set =
+        generate_set(block.map, robots, count, request_.seed, block.bodies);
     if (!set) return Unexpected{set.error()};
-    generated_.emplace_back(map, robots);
+    generated_.emplace_back(block.map, block.bodies);
     return add_set(std::move(*set));
   }
 
@@ -131,7 +140,7 @@ class Expansion {
   const SweepRequest& request_;
   ExpandedSweep sweep_;
   std::set<std::string> names_;
-  std::vector<std::pair<std::string, std::size_t>> generated_;
+  std::vector<std::pair<std::string, Bodies>> generated_;  ///< map and robots of each generated set
   std::vector<std::pair<std::filesystem::path, std::size_t>> archived_;
 };
 
@@ -169,7 +178,7 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
     block.ssi_s = {options.ssi_s};
     block.reschedules = {options.rescheduling};
     block.orders = {options.order};
-    block.planners = {{options.any_angle, options.connectedness}};
+    block.planners = {{options.any_angle, options.connectedness, options.rules}};
     const std::size_t set = expansion.add_set(
         single_instance_set("adversarial-" + std::string(adversarial.name), std::move(plan_case->instance)));
     expansion.add_cases(replaced(std::move(block), request), set, limits_of(request));
@@ -194,7 +203,7 @@ Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
         if (*set) expansion.add_cases(block, **set, limits_of(request));
         continue;
       }
-      const Expected<std::size_t, std::string> set = expansion.generated_set(block.map, robots, count);
+      const Expected<std::size_t, std::string> set = expansion.generated_set(block, robots, count);
       if (!set) return Unexpected{set.error()};
       expansion.add_cases(block, *set, limits_of(request));
     }

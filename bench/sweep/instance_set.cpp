@@ -11,6 +11,7 @@
 
 #include "planner/generator/generator.hpp"
 #include "planner/io/load_instance.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -109,6 +110,20 @@ std::optional<std::string> load_files(const fs::path& folder, const std::vector<
   return std::nullopt;
 }
 
+/// " radius:0.3,1.4 speed:1,2 headings"; nothing for robots as they usually are.
+std::string words_for(const Bodies& bodies) {
+  const Bodies usual;
+  std::string words;
+  const auto add = [&words](const char* name, const std::vector<double>& values) {
+    words += name;
+    for (std::size_t i = 0; i < values.size(); ++i) words += (i > 0 ? "," : "") + format_real(values[i]);
+  };
+  if (bodies.radii_cells != usual.radii_cells) add(" radius:", bodies.radii_cells);
+  if (bodies.speeds_cells_per_s != usual.speeds_cells_per_s) add(" speed:", bodies.speeds_cells_per_s);
+  if (bodies.headings) words += " headings";
+  return words;
+}
+
 }  // namespace
 
 bool natural_less(const std::string& a, const std::string& b) {
@@ -151,25 +166,34 @@ InstanceSet single_instance_set(std::string environment, Instance instance) {
 }
 
 Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
-                                                std::uint64_t count, std::uint64_t seed) {
+                                                std::uint64_t count, std::uint64_t seed,
+                                                const Bodies& bodies) {
   const Expected<MapSpec, std::string> spec = parse_map_spec(map_spec);
   if (!spec) return Unexpected{spec.error()};
   InstanceSet set;
   set.environment = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).stem().string()
                                                        : map_spec.substr(0, map_spec.find(':'));
   set.map_spec = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).filename().string() : map_spec;
-  set.name = fmt::format("generated/seed:{}", seed);
+  const std::string body_words = words_for(bodies);
+  if (!body_words.empty()) set.environment += "-mixed";
+  set.name = fmt::format("generated/seed:{}{}", seed, body_words);
   set.robots = robots;
   for (std::uint64_t index = 0; index < count; ++index) {
     GeneratorOptions options;
     options.agents = robots;
     options.seed = seed;
     options.index = index;
+    options.radii_cells = bodies.radii_cells;
+    options.speeds_cells_per_s = bodies.speeds_cells_per_s;
+    options.headings = bodies.headings;
     Expected<Instance, std::string> instance = generate_instance(*spec, options);
     if (!instance) return Unexpected{instance.error()};
-    set.instances.push_back(prepare(std::move(*instance), fmt::format("{} agents:{} seed:{} index:{}",
-                                                                      set.map_spec, robots, seed, index)));
+    set.instances.push_back(prepare(
+        std::move(*instance),
+        fmt::format("{} agents:{} seed:{} index:{}{}", set.map_spec, robots, seed, index, body_words)));
   }
+  set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);
+  set.speed_cells_per_s = common_value(set, &Agent::speed_cells_per_s, kDefaultSpeedCellsPerS);
   return set;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/suites.hpp"
 #include "db/records.hpp"
 #include "planner/core/expected.hpp"
 #include "planner/instance/instance.hpp"
@@ -28,9 +29,12 @@ struct InstanceSet {
   std::vector<PreparedInstance> instances;
 };
 
-/// `count` instances of one map and seed. Errors: one line.
+/// `count` instances of one map and seed. Bodies other than the usual ones are part of the
+/// set's name ("empty-mixed" is the environment then), and of each instance's, in the words of `sipplab
+/// generate`: "radius:0.3,1.4 speed:1,2 headings". Errors: one line.
 Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
-                                                std::uint64_t count, std::uint64_t seed);
+                                                std::uint64_t count, std::uint64_t seed,
+                                                const Bodies& bodies = {});
 
 /// The .xml and .scen files of a folder in natural order (2.xml before 10.xml), or
 /// those of its sub-folders where it has none itself; one set for each number of

@@ -42,7 +42,8 @@ std::string limit_struck(const PlanResult& result, const PlannerOptions& options
 /// Whether a violation of this kind can be the rounding of a number.
 bool is_measured(ViolationKind kind) {
   return kind == ViolationKind::kAgentCollision || kind == ViolationKind::kObstacleCollision ||
-         kind == ViolationKind::kSpeed;
+         kind == ViolationKind::kSpeed || kind == ViolationKind::kStandingTime ||
+         kind == ViolationKind::kSpacing;
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   db::ResultRow row = described(options, result);
   if (result.status == PlanStatus::kSolved) {
-    add_verdict(instance, result.solution, {options.ssi_s, result.order()}, row);
+    add_verdict(instance, result.solution, {options.ssi_s, result.order(), options.rules}, row);
   }
   return row;
 }

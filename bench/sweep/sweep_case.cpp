@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "planner/io/text.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -15,10 +17,47 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
-  return sweep_case.options.any_angle ? "aa-sipp" : "sipp";
+  return (sweep_case.options.any_angle ? "aa-sipp" : "sipp") + rules_suffix(sweep_case.options.rules);
 }
 
+/// A rule of numbers, its word in the history and its flag.
+struct Margin {
+  std::string_view word;
+  std::string_view flag;
+  double MotionRules::*value;
+};
+constexpr Margin kMargins[] = {
+    {"wait", "--wait-before-move", &MotionRules::wait_before_move_s},
+    {"distance", "--inflate-distance", &MotionRules::inflate_distance_cells},
+    {"time", "--inflate-time", &MotionRules::inflate_time_s},
+};
+
 }  // namespace
+
+std::string rules_suffix(const MotionRules& rules) {
+  std::string suffix = rules.turns ? "+turns" : "";
+  for (const Margin& margin : kMargins) {
+    if (const double value = rules.*margin.value; value > 0) {
+      suffix += fmt::format("+{}:{}", margin.word, format_real(value));
+    }
+  }
+  return suffix;
+}
+
+std::string rules_flags(std::string_view planner) {
+  std::string flags;
+  for (std::size_t at = planner.find('+'); at != std::string_view::npos;) {
+    const std::size_t next = planner.find('+', at + 1);
+    const std::string_view rule = planner.substr(at + 1, next - at - 1);
+    const std::string_view word = rule.substr(0, rule.find(':'));
+    if (word == "turns") flags += " --turns";
+    for (const Margin& margin : kMargins) {
+      if (word == margin.word) flags += fmt::format(" {} {}", margin.flag, rule.substr(word.size() + 1));
+    }
+    at = next;
+  }
+  return flags;
+}
 
 bool is_another_program(std::string_view planner) {
   return planner.substr(0, kProgramPrefix.size()) == kProgramPrefix;
@@ -26,7 +65,8 @@ bool is_another_program(std::string_view planner) {
 
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
   if (is_another_program(planner)) return std::string(planner);
-  return fmt::format("{}-{}", any_angle ? "any-angle" : "grid", 1 << connectedness);
+  return fmt::format("{}-{}{}", any_angle ? "any-angle" : "grid", 1 << connectedness,
+                     planner.substr(std::min(planner.find('+'), planner.size())));
 }
 
 std::string planner_name(const SweepCase& sweep_case) {

@@ -154,6 +154,38 @@ TEST(Expand, RandomReschedulingOfThePaperIsRunWithTenSeeds) {
   EXPECT_EQ(seeds.size(), 10u);
 }
 
+TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
+  SweepRequest request;
+  request.suite = find_suite("mixed");
+  request.count = 1;
+  request.map = "empty:24x24";
+  request.robots = {12};
+  request.ssi_s = {5};
+  request.reschedules = {Rescheduling::kDeterministic};
+  const auto sweep = expand(request);
+  ASSERT_TRUE(sweep.has_value()) << sweep.error();
+  ASSERT_EQ(sweep->sets.size(), 1u);
+  EXPECT_EQ(sweep->sets[0].environment, "empty-mixed");
+  EXPECT_EQ(sweep->sets[0].instances[0].row.name,
+            "empty:24x24 agents:12 seed:1 index:0 radius:0.3,0.5,0.9,1.4 speed:0.5,1,2 headings");
+  ASSERT_EQ(sweep->cases.size(), 3u);
+  EXPECT_EQ(case_row(sweep->cases[0].parameters).planner, "aa-sipp");
+  EXPECT_EQ(case_row(sweep->cases[2].parameters).planner, "sipp+turns");
+  const db::CaseInfo row = case_row(sweep->cases[1].parameters);
+  EXPECT_EQ(row.planner, "aa-sipp+turns");
+  EXPECT_EQ(row.radius_cells, 0);
+  EXPECT_EQ(row.speed_cells_per_s, 0);
+  const db::ResultRow result =
+      run_instance(sweep->sets[0].instances[0].instance, sweep->cases[1].parameters.options);
+  EXPECT_EQ(result.status, db::ResultStatus::kSolved);
+  EXPECT_EQ(result.valid, true);
+
+  request.turns = false;
+  const auto plain = expand(request);
+  ASSERT_TRUE(plain.has_value());
+  EXPECT_EQ(plain->cases.size(), 2u);  // two planners have become one
+}
+
 TEST(GenerateSet, AnInstanceDoesNotDependOnTheCount) {
   const auto few = generate_set("random:12x12:0.1", 5, 2, 9);
   const auto many = generate_set("random:12x12:0.1", 5, 4, 9);

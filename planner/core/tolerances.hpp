@@ -29,4 +29,9 @@ inline constexpr double kValidatorToleranceCells = 1e-8;
 /// motion and its length divided by the robot's speed that rounding explains.
 inline constexpr double kDurationTolerance = 1e-9;
 
+/// Degrees. Difference between a stated heading and the direction of the move after it
+/// that rounding explains; turning so little takes less than 1e-9 s even at the slowest
+/// rotation speed.
+inline constexpr double kHeadingToleranceDeg = 1e-10;
+
 }  // namespace sipplab

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/core/expected.hpp"
 #include "planner/instance/instance.hpp"
@@ -37,13 +38,20 @@ struct GeneratorOptions {
   std::size_t agents = 0;
   std::uint64_t seed = 1;
   std::uint64_t index = 0;  ///< which instance of this seed
-  double radius_cells = kDefaultRadiusCells;
-  double speed_cells_per_s = kDefaultSpeedCellsPerS;
+  // Each robot's is drawn from these, all equally likely; where there is but one value,
+  // nothing is drawn.
+  std::vector<double> radii_cells = {kDefaultRadiusCells};
+  std::vector<double> speeds_cells_per_s = {kDefaultSpeedCellsPerS};
+  std::vector<double> rotation_speeds = {kDefaultRotationSpeed};
+  /// Draw start headings in whole degrees, and goal headings for every other robot.
+  bool headings = false;
 };
 
-/// Robots with distinct starts and distinct goals, bodies not overlapping, all on the
-/// map's largest 4-connected component for that radius, so that every goal can be
-/// reached. A robot's goal differs from its start wherever that is possible.
+/// Robots with distinct starts and distinct goals, bodies not overlapping, each on the
+/// map's largest 4-connected component for its radius, so that every goal can be
+/// reached. A robot's goal differs from its start where it can exchange goals with another
+/// robot of its size, or is alone on the map. Sizes, speeds and headings do not change
+/// where robots of one size are.
 /// Errors: one line when so many robots do not fit.
 Expected<Instance, std::string> generate_instance(const GridMap& map, const GeneratorOptions& options);
 

@@ -19,6 +19,8 @@ inline constexpr double kMinRadiusCells = 1e-3;
 inline constexpr double kMaxRadiusCells = 64;
 inline constexpr double kMinSpeedCellsPerS = 1e-3;
 inline constexpr double kMaxSpeedCellsPerS = 1e3;
+inline constexpr double kMinRotationSpeed = 1e-3;
+inline constexpr double kMaxRotationSpeed = 1e3;
 
 struct Agent {
   std::string id;  ///< as in the input; the input position where the input has none
@@ -32,7 +34,7 @@ struct Agent {
   double start_heading_deg = 0;
   /// None: any heading will do ("whatever").
   std::optional<double> goal_heading_deg;
-  /// Turns of 180 degrees per second.
+  /// Turns of 180 degrees per second. Counts, as the headings do, where MotionRules say so.
   double rotation_speed = kDefaultRotationSpeed;
 
   friend bool operator==(const Agent&, const Agent&) = default;

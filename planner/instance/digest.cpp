@@ -33,6 +33,10 @@ void Digest::add(const Trajectory& trajectory) {
     add(motion.end_s);
     add(motion.from);
     add(motion.to);
+    if (motion.turn_to_deg) {  // plans without turns keep the names that they had before there were any
+      add(std::string_view("turn"));
+      add(*motion.turn_to_deg);
+    }
   }
 }
 

@@ -52,8 +52,9 @@ Broken check_numbers(const Agent& agent) {
     return Rule{fmt::format("speed {}", agent.speed_cells_per_s),
                 fmt::format("a number from {} to {}", kMinSpeedCellsPerS, kMaxSpeedCellsPerS)};
   }
-  if (!(std::isfinite(agent.rotation_speed) && agent.rotation_speed > 0)) {
-    return Rule{fmt::format("rotation speed {}", agent.rotation_speed), "a finite number above 0"};
+  if (!in_range(agent.rotation_speed, kMinRotationSpeed, kMaxRotationSpeed)) {
+    return Rule{fmt::format("rotation speed {}", agent.rotation_speed),
+                fmt::format("a number from {} to {}", kMinRotationSpeed, kMaxRotationSpeed)};
   }
   if (Broken broken = check_heading("start", agent.start_heading_deg)) return broken;
   return agent.goal_heading_deg ? check_heading("goal", *agent.goal_heading_deg) : std::nullopt;

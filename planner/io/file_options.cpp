@@ -1,8 +1,6 @@
 // Planner options as an input file states them: see file_options.hpp.
 #include "planner/io/file_options.hpp"
 
-#include "planner/io/text.hpp"
-
 namespace sipplab {
 
 void apply(const FileOptions& file_options, PlannerOptions& options) {
@@ -15,17 +13,10 @@ void apply(const FileOptions& file_options, PlannerOptions& options) {
   overwrite(file_options.order, options.order);
   overwrite(file_options.ssi_s, options.ssi_s);
   overwrite(file_options.time_limit_s, options.time_limit_s);
-}
-
-std::vector<std::string> unplanned_features(const FileOptions& file_options) {
-  std::vector<std::string> features;
-  if (file_options.plan_for_turns.value_or(false)) features.push_back("planforturns");
-  const auto add_time = [&features](const std::optional<double>& time_s, const std::string& tag) {
-    if (time_s.value_or(0) > 0) features.push_back(tag + " " + format_real(*time_s));
-  };
-  add_time(file_options.wait_before_move_s, "waitbeforemove");
-  add_time(file_options.inflate_collision_intervals_s, "inflatecollisionintervals");
-  return features;
+  overwrite(file_options.turns, options.rules.turns);
+  overwrite(file_options.wait_before_move_s, options.rules.wait_before_move_s);
+  overwrite(file_options.inflate_distance_cells, options.rules.inflate_distance_cells);
+  overwrite(file_options.inflate_time_s, options.rules.inflate_time_s);
 }
 
 }  // namespace sipplab

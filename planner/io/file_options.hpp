@@ -2,8 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "planner/prioritized/options.hpp"
 
@@ -18,10 +16,11 @@ struct FileOptions {
   std::optional<double> ssi_s;         ///< >= 0, or infinity
   std::optional<double> time_limit_s;  ///< > 0, or infinity
 
-  // Features of the published planner that change the motions; see unplanned_features().
-  std::optional<bool> plan_for_turns;
-  std::optional<double> wait_before_move_s;             ///< 0..100
-  std::optional<double> inflate_collision_intervals_s;  ///< 0..100
+  // As MotionRules have them.
+  std::optional<bool> turns;                     ///< <planforturns>
+  std::optional<double> wait_before_move_s;      ///< 0..100
+  std::optional<double> inflate_distance_cells;  ///< <inflatecollisionintervals>, 0..100
+  std::optional<double> inflate_time_s;          ///< <inflatecollisiontime>, 0..100
 
   std::optional<double> log_level;  ///< 0..2; of no consequence here
 
@@ -30,9 +29,5 @@ struct FileOptions {
 
 /// Overwrites the options that the file states.
 void apply(const FileOptions& file_options, PlannerOptions& options);
-
-/// One entry for each feature that the file asks for and that is not planned yet:
-/// "planforturns", "waitbeforemove 0.5", "inflatecollisionintervals 1".
-std::vector<std::string> unplanned_features(const FileOptions& file_options);
 
 }  // namespace sipplab

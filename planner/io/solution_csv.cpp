@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::string_view kHeader = "agent,id,t0,t1,x0,y0,x1,y1";
 constexpr std::size_t kColumns = 8;
+/// With the heading at the end of a turn, empty for other motions.
+constexpr std::string_view kHeaderWithTurns = "agent,id,t0,t1,x0,y0,x1,y1,turn_to";
+constexpr std::size_t kColumnsWithTurns = 9;
 
 void append_field(std::string& out, std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
@@ -52,7 +55,7 @@ Record next_record(std::string_view& rest, int& line) {
       in_quotes_now = true;
     } else if (c == ',') {
       // A line with many commas is wrong however many there are.
-      if (record.fields.size() <= kColumns) record.fields.emplace_back();
+      if (record.fields.size() <= kColumnsWithTurns) record.fields.emplace_back();
     } else if (c == '\n') {
       ++at;
       break;
@@ -79,13 +82,19 @@ Expected<TimedMotion, std::string> motion_of(const std::vector<std::string>& fie
     }
     numbers[i] = static_cast<std::int32_t>(*number);
   }
-  return TimedMotion{*begin_s, *end_s, {numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  TimedMotion motion{*begin_s, *end_s, {numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  if (fields.size() == kColumnsWithTurns && !trimmed(fields[kColumns]).empty()) {
+    motion.turn_to_deg = parse_real(fields[kColumns]);
+    if (!motion.turn_to_deg) return Unexpected{"turn_to " + in_quotes(fields[kColumns])};
+  }
+  return motion;
 }
 
 }  // namespace
 
 std::string solution_to_csv(const Instance& instance, const SolutionDocument& document) {
-  std::string out(kHeader);
+  const bool with_turns = has_turns(document.solution);
+  std::string out(with_turns ? kHeaderWithTurns : kHeader);
   out += '\n';
   const std::vector<Trajectory>& trajectories = document.solution.trajectories;
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
@@ -99,6 +108,7 @@ std::string solution_to_csv(const Instance& instance, const SolutionDocument& do
       for (const std::int32_t number : {motion.from.x, motion.from.y, motion.to.x, motion.to.y}) {
         out += "," + std::to_string(number);
       }
+      if (with_turns) out += motion.turn_to_deg ? "," + format_real(*motion.turn_to_deg) : ",";
       out += '\n';
     }
   }
@@ -111,7 +121,10 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     return Unexpected{InputError{file_name, line, std::move(what), std::move(expected)}};
   };
   const std::string_view header = trimmed(text.substr(0, text.find('\n')));
-  if (header != kHeader) return error(1, "header " + in_quotes(header), std::string(kHeader));
+  if (header != kHeader && header != kHeaderWithTurns) {
+    return error(1, "header " + in_quotes(header), std::string(kHeader));
+  }
+  const std::size_t columns = header == kHeader ? kColumns : kColumnsWithTurns;
   SolutionDocument document;
   for (const Agent& agent : instance.agents) document.solution.trajectories.push_back({agent.start, {}});
 
@@ -122,11 +135,11 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     const Record record = next_record(rest, line);
     if (!record.complete) return error(record.line, "a quote that is not closed", "a closing \"");
     if (record.fields.size() == 1 && trimmed(record.fields[0]).empty()) continue;
-    if (record.fields.size() != kColumns) {
+    if (record.fields.size() != columns) {
       return error(record.line,
-                   record.fields.size() > kColumns ? "too many fields"
-                                                   : std::to_string(record.fields.size()) + " fields",
-                   "8: " + std::string(kHeader));
+                   record.fields.size() > columns ? "too many fields"
+                                                  : std::to_string(record.fields.size()) + " fields",
+                   std::to_string(columns) + ": " + std::string(header));
     }
     const auto agent = parse_integer(record.fields[0]);
     if (!agent || *agent < 0 || static_cast<std::uint64_t>(*agent) >= instance.agents.size()) {
@@ -140,6 +153,9 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     }
     const Expected<TimedMotion, std::string> motion = motion_of(record.fields);
     if (!motion) return error(record.line, motion.error(), "a number");
+    if (motion->is_turn() && !motion->is_wait()) {
+      return error(record.line, "turn_to in a motion that changes place", "turns in place alone");
+    }
     Trajectory& trajectory = document.solution.trajectories[index];
     if (trajectory.motions.empty()) trajectory.start = motion->from;
     trajectory.motions.push_back(*motion);

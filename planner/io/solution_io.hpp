@@ -33,7 +33,9 @@ struct SolutionDocument {
   /// The promise of start-safe intervals holds for `order` in [0, ssi_kept_s].
   std::optional<double> ssi_kept_s;
   /// What it was planned with. Kept by JSON (extra keys at the end: "ssi", "reschedule",
-  /// "initial_order", "any_angle", "connectedness", "seed") and XML; limits and methods are not.
+  /// "initial_order", "any_angle", "connectedness", "seed"; "turns", "wait_before_move",
+  /// "inflate_distance", "inflate_time" where they are not as by default) and XML; limits and
+  /// methods are not.
   std::optional<PlannerOptions> options;
 };
 
@@ -44,7 +46,8 @@ std::optional<SolutionFormat> parse_solution_format(std::string_view text);
 /// REQUIRES: the solution is empty or has one trajectory per agent of the instance.
 std::string solution_to_json(const Instance& instance, const SolutionDocument& document);
 std::string solution_to_xml(const Instance& instance, const SolutionDocument& document);
-/// One line a motion: agent,id,t0,t1,x0,y0,x1,y1. Holds the trajectories alone.
+/// One line a motion: agent,id,t0,t1,x0,y0,x1,y1, and turn_to where there are turns. Holds
+/// the trajectories alone.
 std::string solution_to_csv(const Instance& instance, const SolutionDocument& document);
 std::string write_solution(SolutionFormat format, const Instance& instance, const SolutionDocument& document);
 

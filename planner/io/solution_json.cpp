@@ -70,7 +70,12 @@ void append_trajectory(std::string& out, const Agent& agent, const Trajectory& t
     out += ", \"t1\": ";
     append_number(out, motion.end_s);
     out += ", \"x0\": " + std::to_string(motion.from.x) + ", \"y0\": " + std::to_string(motion.from.y) +
-           ", \"x1\": " + std::to_string(motion.to.x) + ", \"y1\": " + std::to_string(motion.to.y) + "}";
+           ", \"x1\": " + std::to_string(motion.to.x) + ", \"y1\": " + std::to_string(motion.to.y);
+    if (motion.turn_to_deg) {
+      out += ", \"turn_to\": ";
+      append_number(out, *motion.turn_to_deg);
+    }
+    out += '}';
   }
   out += "]}";
 }
@@ -91,6 +96,16 @@ void append_options(std::string& out, const PlannerOptions& options) {
   out += std::string(",\n  \"any_angle\": ") + (options.any_angle ? "true" : "false");
   out += ",\n  \"connectedness\": " + std::to_string(options.connectedness);
   out += ",\n  \"seed\": " + std::to_string(options.seed);
+  const MotionRules& rules = options.rules;
+  if (rules.turns) out += ",\n  \"turns\": true";
+  const auto append_margin = [&out](const char* key, double margin) {
+    if (margin <= 0) return;
+    out += std::string(",\n  \"") + key + "\": ";
+    append_number(out, margin);
+  };
+  append_margin("wait_before_move", rules.wait_before_move_s);
+  append_margin("inflate_distance", rules.inflate_distance_cells);
+  append_margin("inflate_time", rules.inflate_time_s);
 }
 
 }  // namespace

@@ -38,10 +38,10 @@ class JsonReader {
     if (!std::isfinite(result)) fail(where + key, "a finite number");
     return result;
   }
-  std::optional<double> number_or_null(const json& object, const char* key) {
+  std::optional<double> number_or_null(const json& object, const char* key, const std::string& where = "") {
     const json* value = find(object, key);
     if (!value || value->is_null()) return std::nullopt;
-    return number(object, key, "");
+    return number(object, key, where);
   }
   std::int32_t coordinate(const json& object, const char* key, const std::string& where) {
     const json* value = find(object, key);
@@ -96,7 +96,11 @@ Trajectory read_trajectory(JsonReader& reader, const json& value, const std::str
         {reader.number(motion, "t0", here),
          reader.number(motion, "t1", here),
          {reader.coordinate(motion, "x0", here), reader.coordinate(motion, "y0", here)},
-         {reader.coordinate(motion, "x1", here), reader.coordinate(motion, "y1", here)}});
+         {reader.coordinate(motion, "x1", here), reader.coordinate(motion, "y1", here)},
+         reader.number_or_null(motion, "turn_to", here)});
+    if (trajectory.motions.back().is_turn() && !trajectory.motions.back().is_wait()) {
+      reader.fail_with(here + "turn_to in a motion that changes place", "turns in place alone");
+    }
     if (reader.error()) return trajectory;
   }
   if (!trajectory.motions.empty()) trajectory.start = trajectory.motions.front().from;
@@ -159,6 +163,12 @@ std::optional<double> read_ssi(JsonReader& reader, const json& document, const c
   return ssi_s;
 }
 
+double read_margin(JsonReader& reader, const json& document, const char* key) {
+  const double margin = reader.number_or_null(document, key).value_or(0);
+  if (margin < 0 || margin > kMaxMotionMargin) reader.fail(key, "a number from 0 to 100");
+  return margin;
+}
+
 void read_planner_options(JsonReader& reader, const json& document, SolutionDocument& result) {
   const std::optional<double> ssi_s = read_ssi(reader, document, "ssi");
   if (!ssi_s) return;
@@ -176,6 +186,10 @@ void read_planner_options(JsonReader& reader, const json& document, SolutionDocu
     if (options.connectedness < 2 || options.connectedness > 5) reader.fail("connectedness", "2, 3, 4 or 5");
   }
   if (reader.find(document, "seed")) options.seed = reader.count(document, "seed");
+  options.rules.turns = reader.boolean(document, "turns", false);
+  options.rules.wait_before_move_s = read_margin(reader, document, "wait_before_move");
+  options.rules.inflate_distance_cells = read_margin(reader, document, "inflate_distance");
+  options.rules.inflate_time_s = read_margin(reader, document, "inflate_time");
   result.options = options;
 }
 

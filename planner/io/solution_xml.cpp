@@ -44,13 +44,18 @@ void append_summary(std::string& out, const Instance& instance, const SolutionDo
   out += "/>\n";
 }
 
-void append_agent(std::string& out, const Agent& agent, const Trajectory& trajectory) {
+void append_agent(std::string& out, const Agent& agent, const Trajectory& trajectory, bool with_headings) {
   out += "\t\t<agent";
   append_attribute(out, "id", std::string_view(agent.id));
   append_attribute(out, "start.x", std::int64_t{agent.start.x});
   append_attribute(out, "start.y", std::int64_t{agent.start.y});
+  if (with_headings) append_attribute(out, "start.heading", agent.start_heading_deg);
   append_attribute(out, "goal.x", std::int64_t{agent.goal.x});
   append_attribute(out, "goal.y", std::int64_t{agent.goal.y});
+  if (with_headings) {
+    append_attribute(out, "goal.heading",
+                     agent.goal_heading_deg ? format_real(*agent.goal_heading_deg) : "whatever");
+  }
   append_attribute(out, "size", agent.radius_cells);
   append_attribute(out, "movespeed", agent.speed_cells_per_s);
   append_attribute(out, "rotationspeed", agent.rotation_speed);
@@ -58,7 +63,8 @@ void append_agent(std::string& out, const Agent& agent, const Trajectory& trajec
   append_attribute(out, "pathfound", std::string_view("true"));
   append_attribute(out, "duration", trajectory.arrival_s());
   out += ">\n";
-  append_sections(out, trajectory, "\t\t\t\t");
+  append_sections(out, trajectory, "\t\t\t\t",
+                  with_headings ? std::optional(agent.start_heading_deg) : std::nullopt);
   out += "\t\t\t</path>\n\t\t</agent>\n";
 }
 
@@ -136,7 +142,8 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
       if (document.status == "solved") document.status = "failed";
       return;
     }
-    const SectionOptions options{speed_of(reader, element, instance, position), true};
+    SectionOptions options{speed_of(reader, element, instance, position), true, nullptr};
+    if (position < instance.agents.size()) options.robot = &instance.agents[position];
     const pugi::xml_attribute id = element.attribute("id");
     Trajectory trajectory = read_sections(reader, path, options);
     if (reader.failed()) return;
@@ -167,8 +174,9 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
     out += (i > 0 ? " " : "") + std::to_string(document.order[i]);
   }
   out += "</order>\n";
+  const bool with_headings = has_turns(document.solution);
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    append_agent(out, instance.agents[i], trajectories[i]);
+    append_agent(out, instance.agents[i], trajectories[i], with_headings);
   }
   out += "\t</log>\n</root>\n";
   return out;

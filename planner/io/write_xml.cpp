@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "planner/grid/heading.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab {
@@ -165,19 +166,38 @@ void append_options_xml(std::string& out, const PlannerOptions& options) {
   append_element(out, "rescheduling", published_name(options.rescheduling));
   append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));
   append_element(out, "timelimit", time(options.time_limit_s, "-1"));
+  const MotionRules& rules = options.rules;
+  if (rules.turns) append_element(out, "planforturns", "true");
+  const auto append_margin = [&out](const char* name, double margin) {
+    if (margin > 0) append_element(out, name, format_real(margin));
+  };
+  append_margin("waitbeforemove", rules.wait_before_move_s);
+  append_margin("inflatecollisionintervals", rules.inflate_distance_cells);
+  append_margin("inflatecollisiontime", rules.inflate_time_s);
   out += "\t</algorithm>\n";
 }
 
-void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent) {
+void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent,
+                     std::optional<double> start_heading_deg) {
   std::int64_t id = 0;
+  double now_deg = start_heading_deg.value_or(0);
   for (const TimedMotion& motion : trajectory.motions) {
     out += indent;
     out += "<section";
     append_attribute(out, "id", id++);
     append_attribute(out, "start.x", std::int64_t{motion.from.x});
     append_attribute(out, "start.y", std::int64_t{motion.from.y});
+    if (!motion.is_wait()) now_deg = heading_deg(motion.from, motion.to);
+    const double before_deg = now_deg;
+    if (start_heading_deg) append_attribute(out, "start.heading", before_deg);
     append_attribute(out, "goal.x", std::int64_t{motion.to.x});
     append_attribute(out, "goal.y", std::int64_t{motion.to.y});
+    now_deg = motion.turn_to_deg.value_or(now_deg);
+    if (start_heading_deg) append_attribute(out, "goal.heading", now_deg);
+    // Else it would be read as a wait.
+    if (start_heading_deg && motion.is_turn() && now_deg == before_deg) {
+      append_attribute(out, "turn", std::string_view("true"));
+    }
     // Times may be any numbers here: a wrong solution is written as it is.
     const double duration_s = motion.end_s - motion.begin_s;
     append_attribute(out, "duration", std::isfinite(duration_s) ? duration_s : 0.0);

@@ -1,6 +1,7 @@
 // Pieces of AA-SIPP(m)'s XML that instances and solutions have in common.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,7 +28,9 @@ void append_instance_xml(std::string& out, const Instance& instance);
 /// <algorithm>, one tab deep. Limits but that of time have no place there.
 void append_options_xml(std::string& out, const PlannerOptions& options);
 
-/// One <section> a motion, each with its duration and with begin and end, exact.
-void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent);
+/// One <section> a motion, each with its duration and with begin and end, exact; with the
+/// headings at both ends where that at the beginning is given.
+void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent,
+                     std::optional<double> start_heading_deg = std::nullopt);
 
 }  // namespace sipplab

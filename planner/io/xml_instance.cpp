@@ -16,8 +16,8 @@ using pugi::xml_node;
 constexpr NumberRange kRadii{kMinRadiusCells, kMaxRadiusCells, "a radius in cells, 0.001 to 64"};
 constexpr NumberRange kSpeeds{kMinSpeedCellsPerS, kMaxSpeedCellsPerS,
                               "a speed in cells per second, 0.001 to 1000"};
-constexpr NumberRange kRotationSpeeds{0, kMaxSpeedCellsPerS,
-                                      "half turns per second, more than 0 and at most 1000", false};
+constexpr NumberRange kRotationSpeeds{kMinRotationSpeed, kMaxRotationSpeed,
+                                      "half turns per second, 0.001 to 1000"};
 constexpr NumberRange kHeadings{0, 360, "degrees from 0 to 360"};
 
 /// The published format allows 360, which is 0.

@@ -14,7 +14,8 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 
 constexpr NumberRange kSsis{0, kLargest, "seconds from 0, or infinity"};
 constexpr NumberRange kTimeLimits{0, kLargest, "seconds above 0, or -1 for no limit", false};
-constexpr NumberRange kDelays{0, 100, "seconds from 0 to 100"};
+constexpr NumberRange kDelays{0, kMaxMotionMargin, "seconds from 0 to 100"};
+constexpr NumberRange kInflations{0, kMaxMotionMargin, "cells from 0 to 100"};
 constexpr NumberRange kLogLevels{0, 2, "0, 1 or 2"};
 
 template <class T>
@@ -44,7 +45,8 @@ void read_algorithm(XmlReader& reader, xml_node node, FileOptions& options) {
   // The last line: settings of older dialects that leave nothing to choose here.
   reader.expect_only_children(
       node, {"allowanyangle", "connectedness", "rescheduling", "startsafeinterval", "prioritization",
-             "timelimit", "planforturns", "waitbeforemove", "inflatecollisionintervals",  //
+             "timelimit", "planforturns", "waitbeforemove", "inflatecollisionintervals",
+             "inflatecollisiontime",  // of this project alone
              "metrictype", "breakingties", "weight", "hweight", "constraints_type"});
 
   if (const xml_node child = reader.only_child(node, "allowanyangle")) {
@@ -74,13 +76,17 @@ void read_algorithm(XmlReader& reader, xml_node node, FileOptions& options) {
     options.time_limit_s = unlimited ? kInfinity : reader.real_text(child, kTimeLimits);
   }
   if (const xml_node child = reader.only_child(node, "planforturns")) {
-    options.plan_for_turns = reader.boolean_text(child);
+    options.turns = reader.boolean_text(child);
   }
   if (const xml_node child = reader.only_child(node, "waitbeforemove")) {
     options.wait_before_move_s = reader.real_text(child, kDelays);
   }
   if (const xml_node child = reader.only_child(node, "inflatecollisionintervals")) {
-    options.inflate_collision_intervals_s = reader.real_text(child, kDelays);
+    // Documented as a time; the published planner adds it to the distance (its issue 14).
+    options.inflate_distance_cells = reader.real_text(child, kInflations);
+  }
+  if (const xml_node child = reader.only_child(node, "inflatecollisiontime")) {
+    options.inflate_time_s = reader.real_text(child, kDelays);
   }
 }
 

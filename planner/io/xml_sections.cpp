@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/grid/heading.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -17,11 +19,68 @@ constexpr NumberRange kDurations{0, std::numeric_limits<double>::max(), "seconds
 constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "a number"};
 
+/// Degrees. The same for headings, which are at most 360.
+constexpr double kPublishedRoundingDeg = kPublishedRounding * kFullTurnDeg;
+
+double without_rounding(double stated, double exact, double rounding) {
+  return std::abs(stated - exact) <= rounding ? exact : stated;
+}
+
+Cell read_cell(XmlReader& reader, xml_node section, const char* x, const char* y) {
+  return {reader.required_integer(section, x), reader.required_integer(section, y)};
+}
+
+/// The headings of the robot that makes the sections, one section after another.
+class HeadingReader {
+ public:
+  HeadingReader(XmlReader& reader, const SectionOptions& options)
+      : reader_(reader), robot_(options.robot), now_deg_(robot_ ? robot_->start_heading_deg : 0) {}
+
+  /// Sets what the section says of a turn; returns the angle of the turn in degrees.
+  double read(xml_node section, bool exact, TimedMotion& motion) {
+    const auto from_deg = reader_.optional_real(section, "start.heading", kAnyNumber);
+    const auto to_deg = reader_.optional_real(section, "goal.heading", kAnyNumber);
+    if (!robot_) return 0;
+    const double before_deg = now_deg_;
+    if (!motion.is_wait()) {
+      now_deg_ = heading_deg(motion.from, motion.to);
+    } else if (from_deg && to_deg && (*from_deg != *to_deg || section.attribute("turn"))) {
+      now_deg_ = exact ? *to_deg : meant_by(section, *to_deg);
+      motion.turn_to_deg = now_deg_;
+    }
+    return turn_deg(before_deg, now_deg_);
+  }
+
+ private:
+  /// The heading after this section: that of the next move, or the goal's, where it is
+  /// written down rounded.
+  double meant_by(xml_node section, double stated_deg) {
+    const xml_node next = section.next_sibling("section");
+    if (!next) {
+      return without_rounding(stated_deg, robot_->goal_heading_deg.value_or(stated_deg),
+                              kPublishedRoundingDeg);
+    }
+    const Cell from = read_cell(reader_, next, "start.x", "start.y");
+    const Cell to = read_cell(reader_, next, "goal.x", "goal.y");
+    return from == to ? stated_deg
+                      : without_rounding(stated_deg, heading_deg(from, to), kPublishedRoundingDeg);
+  }
+
+  XmlReader& reader_;
+  const Agent* robot_;
+  double now_deg_;
+};
+
 /// How long the section takes, in seconds.
-double duration_s(const TimedMotion& motion, double stated_s, const SectionOptions& options) {
-  if (motion.is_wait() || !options.speed_cells_per_s) return stated_s;
-  const double exact_s = distance(motion.from, motion.to) / *options.speed_cells_per_s;
-  return std::abs(stated_s - exact_s) <= kPublishedRounding * exact_s ? exact_s : stated_s;
+double duration_s(const TimedMotion& motion, double stated_s, double turned_deg,
+                  const SectionOptions& options) {
+  double exact_s = stated_s;
+  if (motion.is_turn()) {
+    exact_s = turned_deg / (kHalfTurnDeg * options.robot->rotation_speed);
+  } else if (!motion.is_wait() && options.speed_cells_per_s) {
+    exact_s = distance(motion.from, motion.to) / *options.speed_cells_per_s;
+  }
+  return without_rounding(stated_s, exact_s, kPublishedRounding * exact_s);
 }
 
 }  // namespace
@@ -30,20 +89,20 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
   Trajectory trajectory;
   double now_s = 0;
   std::optional<Cell> at;
+  HeadingReader headings(reader, options);
   for (const xml_node section : node.children("section")) {
     reader.expect_only_attributes(section, {"id", "start.x", "start.y", "start.heading", "goal.x", "goal.y",
-                                            "goal.heading", "duration", "begin", "end"});
+                                            "goal.heading", "duration", "begin", "end", "turn"});
     TimedMotion motion;
-    motion.from = {reader.required_integer(section, "start.x"), reader.required_integer(section, "start.y")};
-    motion.to = {reader.required_integer(section, "goal.x"), reader.required_integer(section, "goal.y")};
-    reader.optional_real(section, "start.heading", kAnyNumber);
-    reader.optional_real(section, "goal.heading", kAnyNumber);
+    motion.from = read_cell(reader, section, "start.x", "start.y");
+    motion.to = read_cell(reader, section, "goal.x", "goal.y");
     const bool exact = section.attribute("begin") && section.attribute("end");
+    const double turned_deg = headings.read(section, exact, motion);
     const NumberRange& times = exact && options.only_form ? kAnyNumber : kDurations;
     const double stated_s = reader.required_real(section, "duration", times);
     motion.begin_s = exact ? reader.required_real(section, "begin", times) : now_s;
-    motion.end_s =
-        exact ? reader.required_real(section, "end", times) : now_s + duration_s(motion, stated_s, options);
+    motion.end_s = exact ? reader.required_real(section, "end", times)
+                         : now_s + duration_s(motion, stated_s, turned_deg, options);
     if (at && *at != motion.from && !options.only_form) {
       reader.fail(
           section,
@@ -68,7 +127,7 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
     if (!at) trajectory.start = motion.from;
     at = motion.to;
     now_s = motion.end_s;
-    const bool says_nothing = motion.is_wait() && motion.end_s == motion.begin_s;
+    const bool says_nothing = motion.is_wait() && !motion.is_turn() && motion.end_s == motion.begin_s;
     if (!says_nothing) trajectory.motions.push_back(motion);
   }
   return trajectory;

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "planner/instance/agent.hpp"
 #include "planner/io/xml_reader.hpp"
 #include "planner/solution/trajectory.hpp"
 
@@ -17,6 +18,11 @@ struct SectionOptions {
   /// Take sections that do not join, or that change place in no time: for a
   /// solution, which the validator will judge.
   bool only_form = false;
+  /// The robot that made the sections: those that stay in place between two different
+  /// headings are turns. Without exact times, a heading that is the next direction (or the
+  /// goal heading) to within rounding becomes just that, and a duration likewise. None:
+  /// headings are passed over.
+  const Agent* robot = nullptr;
 };
 
 /// The trajectory that the <section> children of `node` tell of, from time 0. Their

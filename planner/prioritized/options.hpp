@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "planner/instance/motion_rules.hpp"
+
 namespace sipplab {
 
 /// Priority order of the first try. Ties by input position.
@@ -62,6 +64,7 @@ struct PlannerOptions {
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours, k = 2..5
   std::uint64_t seed = 1;
+  MotionRules rules;  ///< turns, delays, inflation; none by default
 
   double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
   std::uint64_t max_expansions = UINT64_MAX;  ///< over all tries

@@ -1,12 +1,14 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/ejection.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "planner/prioritized/start_guard.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/search/turning_search.hpp"
 
 namespace sipplab {
 namespace {
@@ -67,7 +69,9 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   PriorityOrder first = initial_order(options.order, lengths_s, random);
   OrderSequence orders(options.rescheduling, std::move(first), random);
 
-  ReservationTable reservations(instance.map, largest_radius_cells(instance));
+  const MotionRules& rules = options.rules;
+  ReservationTable reservations(instance.map, largest_radius_cells(instance) + rules.inflate_distance_cells,
+                                rules.inflate_time_s);
   PlanResult result;
   result.ssi_kept_s = options.ssi_s;
   while (true) {
@@ -131,6 +135,15 @@ void plan_all_at_once(const Instance& instance, const PlannerOptions& options, P
   result.ssi_kept_s = complete.ssi_kept_s;
 }
 
+std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
+                                                         const PlannerOptions& options) {
+  if (options.rules.is_plain()) {
+    return std::make_unique<SippSearch>(instance, SippOptions{options.any_angle, options.connectedness});
+  }
+  return std::make_unique<TurningSearch>(
+      instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
+}
+
 }  // namespace
 
 PlanResult plan(const Instance& instance, const PlannerOptions& options) {
@@ -139,8 +152,8 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   if (options.method == Method::kComplete) {
     plan_all_at_once(instance, options, result);
   } else {
-    SippSearch search(instance, {options.any_angle, options.connectedness});
-    result = plan_prioritized(instance, options, search);
+    const std::unique_ptr<SingleAgentPlanner> search = single_agent_planner(instance, options);
+    result = plan_prioritized(instance, options, *search);
     if (result.status != PlanStatus::kSolved && options.fallback == Fallback::kComplete) {
       plan_all_at_once(instance, options, result);
     }

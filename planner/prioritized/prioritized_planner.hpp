@@ -55,9 +55,10 @@ struct PlanResult {
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 
-/// The same with what the options name: AA-SIPP, or SIPP where any_angle is false; the
-/// complete planner as their method or as their fallback. What the latter does is counted as
-/// one more try, its steps as expansions and its configurations as generations.
+/// The same with what the options name: AA-SIPP, or SIPP where any_angle is false, with headings
+/// and delays where the rules ask for them; the complete planner as their method or as their
+/// fallback. What the latter does is counted as one more try, its steps as expansions and its
+/// configurations as generations.
 ///
 /// REQUIRES: !find_beyond_complete(instance) where the options name the complete planner;
 /// else there is no plan of it.

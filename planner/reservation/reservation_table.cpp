@@ -41,9 +41,10 @@ Span slab(double position, double step, double middle, double half, double lengt
 
 }  // namespace
 
-ReservationTable::ReservationTable(const GridMap& map, double max_radius_cells)
+ReservationTable::ReservationTable(const GridMap& map, double max_radius_cells, double time_margin_s)
     : map_(map),
       max_radius_(max_radius_cells),
+      time_margin_s_(time_margin_s),
       memory_(kBytesPerCell * map.cell_count()),
       visits_(static_cast<std::size_t>(map.width() + map.height())) {
   timelines_.reserve(map.cell_count());
@@ -143,7 +144,7 @@ ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
     if (!std::exchange(timeline.used, true)) used_cells_.push_back(cell);
     if (timeline.safe_radius >= 0) {
       timeline.safe.remove_open(
-          collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius));
+          widened(collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius)));
     }
     if (disk.end_s == kForever) {
       timeline.resting.push_back({disk.begin_s, kForever, kForever, id});
@@ -208,7 +209,8 @@ std::span<const SafeInterval> ReservationTable::safe_intervals(Cell cell, double
     for (const std::pmr::vector<Presence>* presences : {&timeline.passing, &timeline.resting}) {
       for (const Presence& presence : *presences) {
         const MovingDisk& disk = disks_[presence.disk];
-        timeline.safe.remove_open(collision_interval(centre(cell), disk, radius_cells + disk.radius));
+        timeline.safe.remove_open(
+            widened(collision_interval(centre(cell), disk, radius_cells + disk.radius)));
       }
     }
   }
@@ -216,8 +218,8 @@ std::span<const SafeInterval> ReservationTable::safe_intervals(Cell cell, double
 }
 
 double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
-                                        double departure_s) {
-  const OpenInterval unsafe = unsafe_departures(move, disk, radius_cells + disk.radius);
+                                        double departure_s) const {
+  const OpenInterval unsafe = widened(unsafe_departures(move, disk, radius_cells + disk.radius));
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
@@ -225,7 +227,7 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
                                         double departure_s, DiskId& blocker) {
   const Timeline& timeline = timelines_[visit.cell];
   // Unsafe departures may reach a little beyond the time that is spent near a disk.
-  const double margin_s = kNearMissCells * move.seconds_per_cell;
+  const double margin_s = kNearMissCells * move.seconds_per_cell + time_margin_s_;
   const double enter_s = departure_s + visit.enter_s - margin_s;
   const double leave_s = departure_s + visit.leave_s + margin_s;
   const Presence* const end = timeline.passing.data() + timeline.passing.size();
@@ -234,7 +236,7 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
     if (presence->exit_s <= enter_s || !is_news(presence->disk)) continue;
     const MovingDisk& disk = disks_[presence->disk];
     ++disks_examined_;
-    if (!may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
+    if (time_margin_s_ == 0 && !may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
     const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
     if (later_s > departure_s) {
       blocker = presence->disk;

@@ -28,8 +28,9 @@ class ReservationTable {
   using DiskId = std::uint32_t;
   static constexpr DiskId kNoDisk = UINT32_MAX;
 
-  /// For robots of radius up to `max_radius_cells` that ask.
-  ReservationTable(const GridMap& map, double max_radius_cells);
+  /// For robots of radius up to `max_radius_cells` that ask. Every disk is taken to be
+  /// where it is `time_margin_s` sooner and later as well.
+  ReservationTable(const GridMap& map, double max_radius_cells, double time_margin_s = 0);
   ReservationTable(const ReservationTable&) = delete;
   ReservationTable& operator=(const ReservationTable&) = delete;
 
@@ -119,11 +120,17 @@ class ReservationTable {
   /// Whether the disk was not looked at yet for this move and departure: it may be near
   /// several cells of the way.
   bool is_news(DiskId id) { return std::exchange(answered_[id], question_) != question_; }
-  static double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
-                               double departure_s);
+  double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
+                        double departure_s) const;
+  /// Unsafe times, sooner and later by the margin.
+  OpenInterval widened(OpenInterval unsafe) const {
+    if (unsafe.empty()) return unsafe;
+    return {unsafe.begin_s - time_margin_s_, unsafe.end_s + time_margin_s_};
+  }
 
   const GridMap& map_;
   double max_radius_;
+  double time_margin_s_;
   /// Where the timelines lie: many small arrays that grow and are dropped together.
   std::pmr::monotonic_buffer_resource memory_;
   std::vector<MovingDisk> disks_;

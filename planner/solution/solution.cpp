@@ -7,6 +7,15 @@
 
 namespace sipplab {
 
+bool has_turns(const Solution& solution) {
+  for (const Trajectory& trajectory : solution.trajectories) {
+    for (const TimedMotion& motion : trajectory.motions) {
+      if (motion.is_turn()) return true;
+    }
+  }
+  return false;
+}
+
 double makespan_s(const Solution& solution) {
   double latest_s = 0;
   for (const Trajectory& trajectory : solution.trajectories)

@@ -14,6 +14,9 @@ struct Solution {
   friend bool operator==(const Solution&, const Solution&) = default;
 };
 
+/// Whether any motion is a turn.
+bool has_turns(const Solution& solution);
+
 /// Latest arrival, in seconds; 0 without agents.
 double makespan_s(const Solution& solution);
 

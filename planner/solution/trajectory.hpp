@@ -1,7 +1,8 @@
-// What a robot does: straight motions and waits from time 0 on, then rest at the
-// last position for ever.
+// What a robot does: straight motions, turns and waits from time 0 on, then rest at
+// the last position for ever.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/grid/cell.hpp"
@@ -15,8 +16,13 @@ struct TimedMotion {
   double end_s = 0;
   Cell from;
   Cell to;
+  /// Of a wait that is a turn in place: the heading at its end, in degrees as
+  /// Agent::start_heading_deg counts them. None for any other motion.
+  std::optional<double> turn_to_deg = std::nullopt;
 
+  /// Whether the body stays where it is, turning or not.
   bool is_wait() const { return from == to; }
+  bool is_turn() const { return turn_to_deg.has_value(); }
   friend bool operator==(const TimedMotion&, const TimedMotion&) = default;
 };
 

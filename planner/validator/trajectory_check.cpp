@@ -15,9 +15,6 @@ namespace {
 
 std::string text(Cell cell) { return fmt::format("({}, {})", cell.x, cell.y); }
 
-/// Seconds. Errors of times that rounding explains, at this time.
-double time_tolerance_s(double time_s) { return kDurationTolerance * std::max(1.0, time_s); }
-
 class Check {
  public:
   Check(const Instance& instance, AgentIndex agent, const Trajectory& trajectory, std::size_t max_violations,
@@ -122,6 +119,8 @@ class Check {
 };
 
 }  // namespace
+
+double time_tolerance_s(double time_s) { return kDurationTolerance * std::max(1.0, time_s); }
 
 std::string agent_label(const Instance& instance, AgentIndex agent) {
   const std::string& id = instance.agents[agent].id;

@@ -16,6 +16,9 @@ namespace sipplab {
 bool check_trajectory(const Instance& instance, AgentIndex agent, const Trajectory& trajectory,
                       std::size_t max_violations, std::vector<Violation>& violations);
 
+/// Seconds. Errors of times that rounding explains, at this time.
+double time_tolerance_s(double time_s);
+
 /// How messages call an agent: its id, or its position where it has none.
 std::string agent_label(const Instance& instance, AgentIndex agent);
 

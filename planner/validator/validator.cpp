@@ -8,7 +8,9 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/validator/body_track.hpp"
+#include "planner/validator/heading_check.hpp"
 #include "planner/validator/separation.hpp"
+#include "planner/validator/spacing_check.hpp"
 #include "planner/validator/start_safe_check.hpp"
 #include "planner/validator/trajectory_check.hpp"
 
@@ -69,6 +71,29 @@ void check_promise(const Instance& instance, const std::vector<BodyTrack>& robot
   }
 }
 
+/// What the rules ask for beyond bodies that do not overlap.
+void check_rules(const Instance& instance, const std::vector<BodyTrack>& bodies,
+                 const ValidationOptions& options, std::size_t max_violations,
+                 std::vector<Violation>& violations) {
+  const std::size_t agents = instance.agents.size();
+  std::vector<AgentIndex> order = options.order;
+  if (!is_permutation(order, agents)) order.clear();
+  const std::size_t room = std::max(max_violations, violations.size()) - violations.size();
+  for (const SpacingConflict& conflict :
+       check_spacing(bodies, agents, order, options.rules, kValidatorToleranceCells, room)) {
+    const bool with_obstacle = conflict.other >= agents;
+    const std::size_t other = with_obstacle ? conflict.other - agents : conflict.other;
+    violations.push_back(
+        {ViolationKind::kSpacing, conflict.body, other, conflict.time_s, conflict.depth_cells,
+         fmt::format("{} is {:.3g} cells too near to {} at time {} for an inflation by {}",
+                     agent_label(instance, conflict.body), conflict.depth_cells,
+                     with_obstacle ? obstacle_label(instance, other) : agent_label(instance, other),
+                     conflict.time_s,
+                     conflict.in_time ? fmt::format("{} s", options.rules.inflate_time_s)
+                                      : fmt::format("{} cells", options.rules.inflate_distance_cells))});
+  }
+}
+
 }  // namespace
 
 std::string_view name(ViolationKind kind) {
@@ -91,6 +116,12 @@ std::string_view name(ViolationKind kind) {
       return "obstacle-collision";
     case ViolationKind::kStartSafeInterval:
       return "start-safe-interval";
+    case ViolationKind::kHeading:
+      return "heading";
+    case ViolationKind::kStandingTime:
+      return "standing-time";
+    case ViolationKind::kSpacing:
+      return "spacing";
   }
   return "unknown";
 }
@@ -110,7 +141,12 @@ ValidationReport validate(const Instance& instance, const Solution& solution,
 
   bool comparable = true;
   for (AgentIndex i = 0; i < agents; ++i) {
-    comparable &= check_trajectory(instance, i, solution.trajectories[i], max_violations, report.violations);
+    const Trajectory& trajectory = solution.trajectories[i];
+    if (check_trajectory(instance, i, trajectory, max_violations, report.violations)) {
+      check_headings(instance, i, trajectory, options.rules, max_violations, report.violations);
+    } else {
+      comparable = false;
+    }
   }
   // Without times there is no place to compare, and the verdict is known.
   if (!comparable) return report;
@@ -133,6 +169,7 @@ ValidationReport validate(const Instance& instance, const Solution& solution,
   for (const BodyConflict& conflict : separation.conflicts) {
     if (report.violations.size() < max_violations) report.violations.push_back(collision(instance, conflict));
   }
+  check_rules(instance, bodies, options, max_violations, report.violations);
   check_promise(instance, robots, options, max_violations, report.violations);
   return report;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "planner/instance/instance.hpp"
+#include "planner/instance/motion_rules.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
@@ -25,6 +26,9 @@ enum class ViolationKind {
   kAgentCollision,     ///< two robots closer than the sum of their radii
   kObstacleCollision,  ///< a robot and a dynamic obstacle likewise
   kStartSafeInterval,  ///< a robot too close to the start of a lower-priority robot in [0, ssi]
+  kHeading,            ///< a robot moves, or ends, with another heading than it faces
+  kStandingTime,       ///< too little time to turn, or to wait before a move
+  kSpacing,            ///< less distance or time to another body than the rules ask for
 };
 /// "agent-collision" and so on, in lower case with hyphens.
 std::string_view name(ViolationKind kind);
@@ -34,9 +38,11 @@ struct Violation {
   AgentIndex agent = 0;
   /// The other robot (or the obstacle's position for kObstacleCollision).
   std::optional<std::size_t> other;
-  double time_s = 0;       ///< when the violation is deepest, or where it stands in the trajectory
-  double depth_cells = 0;  ///< overlap at that time; for other kinds the size of the error
-  std::string message;     ///< one line for a person
+  double time_s = 0;  ///< when the violation is deepest, or where it stands in the trajectory
+  /// Overlap at that time; for other kinds the size of the error, in seconds for times and
+  /// in degrees for headings.
+  double depth_cells = 0;
+  std::string message;  ///< one line for a person
 };
 
 struct ValidationOptions {
@@ -44,6 +50,7 @@ struct ValidationOptions {
   /// priority order; 0 or an empty order: nothing to check.
   double ssi_s = 0;
   std::vector<AgentIndex> order;
+  MotionRules rules;  ///< what the plan was made for
   /// Stop collecting after this many violations; 0 counts as 1.
   std::size_t max_violations = 100;
 };
@@ -62,7 +69,8 @@ struct ValidationReport {
 };
 
 /// Checks everything that a solution promises: endpoints, continuity, speed, static
-/// clearance, separation of every pair for all time, start-safe intervals. Overlap
+/// clearance, turns and delays, separation of every pair for all time, what the rules ask
+/// for beyond that, start-safe intervals. Overlap
 /// up to kValidatorToleranceCells passes. Never asserts on a bad solution.
 /// Pairs are found by sweeping a uniform grid over (place, time); each candidate
 /// pair of motions is decided in closed form. Violations come in this order: single

@@ -214,6 +214,15 @@ Told any_told() {
       }
     }
   }
+  // Some waits are turns, a few of them to where the robot faces already.
+  if (*rc::gen::inRange(0, 3) == 0) {
+    for (Trajectory& trajectory : scene.solution.trajectories) {
+      for (TimedMotion& motion : trajectory.motions) {
+        if (motion.is_wait())
+          motion.turn_to_deg = *rc::gen::oneOf(any_of({0.0, 90.0}), any_real_between(-400, 400));
+      }
+    }
+  }
   told.instance = std::move(scene.instance);
   SolutionDocument& document = told.document;
   document.status = *rc::gen::weightedElement<std::string>({{6, "solved"}, {1, "failed"}, {1, "limit"}});
@@ -239,6 +248,11 @@ Told any_told() {
     document.options->any_angle = *rc::gen::arbitrary<bool>();
     document.options->connectedness = *rc::gen::inRange(2, 6);
     document.options->seed = *rc::gen::arbitrary<std::uint64_t>();
+    MotionRules& rules = document.options->rules;
+    rules.turns = *rc::gen::arbitrary<bool>();
+    for (double* margin : {&rules.wait_before_move_s, &rules.inflate_distance_cells, &rules.inflate_time_s}) {
+      *margin = *rc::gen::oneOf(rc::gen::just(0.0), any_real_between(0, kMaxMotionMargin));
+    }
   }
   return told;
 }
@@ -253,6 +267,7 @@ void check_options_survive(const std::optional<PlannerOptions>& read,
   RC_ASSERT(read->any_angle == written->any_angle);
   RC_ASSERT(read->connectedness == written->connectedness);
   RC_ASSERT(read->seed == written->seed);
+  RC_ASSERT(read->rules == written->rules);
 }
 
 void check_solution_survives(const Told& told, SolutionFormat format) {

@@ -19,8 +19,11 @@ GeneratorOptions any_options(std::size_t most_agents) {
   options.agents = *rc::gen::inRange<std::size_t>(0, most_agents + 1);
   options.seed = *rc::gen::arbitrary<std::uint64_t>();
   options.index = *rc::gen::inRange<std::uint64_t>(0, 1000);
-  options.radius_cells = *rc::gen::element(0.5, 0.25, 0.4, 0.75, 1.0, 1.5);
-  options.speed_cells_per_s = *rc::gen::element(1.0, 0.5, 2.0);
+  options.radii_cells = {*rc::gen::element(0.5, 0.25, 0.4, 0.75, 1.0, 1.5)};
+  if (*rc::gen::inRange(0, 3) == 0) options.radii_cells = {0.3, 0.5, 0.9, 1.4};
+  options.speeds_cells_per_s = {*rc::gen::element(1.0, 0.5, 2.0), 1.0};
+  options.rotation_speeds = {0.5, 2};
+  options.headings = *rc::gen::arbitrary<bool>();
   return options;
 }
 
@@ -47,12 +50,13 @@ int main() {
     RC_ASSERT(instance->agents.size() == options.agents);
     RC_ASSERT(!find_error(*instance));
     RC_ASSERT(!find_unreachable_goal(*instance));
-    RC_CLASSIFY(options.radius_cells > 0.5, "wider than a cell");
+    RC_CLASSIFY(options.radii_cells.back() > 0.5, "wider than a cell");
+    RC_CLASSIFY(options.radii_cells.size() > 1, "several sizes");
   });
 
   passed &= property("no robot is at its goal already where two fit on the map", [] {
     GeneratorOptions options = any_options(16);
-    options.radius_cells = 0.5;
+    options.radii_cells = {0.5};
     MapSpec spec;
     spec.width = *rc::gen::inRange(2, 6);
     spec.height = *rc::gen::inRange(2, 6);
@@ -71,7 +75,7 @@ int main() {
 
   passed &= property("the same seed and index give the same instance, another index another", [] {
     GeneratorOptions options = any_options(0);
-    options.radius_cells = 0.5;
+    options.radii_cells = {0.5};
     options.agents = 20;
     MapSpec spec = any_random_map();
     spec.width = 30;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -16,9 +17,11 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/search/turning_search.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
+#include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
 namespace sipplab {
@@ -137,6 +140,16 @@ Posed posed(const World& world, bool any_angle) {
   return posed;
 }
 
+std::unique_ptr<SingleAgentPlanner> search_of(const PlanCase& plan_case) {
+  const PlannerOptions& options = plan_case.options;
+  if (options.rules.is_plain()) {
+    return std::make_unique<SippSearch>(plan_case.instance,
+                                        SippOptions{options.any_angle, options.connectedness});
+  }
+  return std::make_unique<TurningSearch>(
+      plan_case.instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
+}
+
 /// What was seen on the way, for classes.
 struct Seen {
   int planned = 0;
@@ -145,20 +158,20 @@ struct Seen {
   int pardoned = 0;  ///< robots whose goal overlaps a start that is protected for ever
 };
 
-/// Plans as SippSearch does and compares each trajectory with the exhaustive search.
+/// Plans as plan() does and compares each trajectory with the exhaustive search.
 class ComparedSearch : public SingleAgentPlanner {
  public:
   explicit ComparedSearch(const Posed& posed)
       : posed_(posed),
         instance_(posed.plan_case.instance),
         options_(posed.plan_case.options),
-        search_(instance_, {options_.any_angle, options_.connectedness}),
+        search_(search_of(posed.plan_case)),
         planned_(instance_.agents.size()) {}
 
   Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override {
     const SearchStatistics before = statistics;
-    auto trajectory = search_.plan(agent, reservations, limits, statistics);
+    auto trajectory = search_->plan(agent, reservations, limits, statistics);
     work_.expansions += statistics.expansions - before.expansions;
     work_.generations += statistics.generations - before.generations;
     std::optional<double> arrival_s;
@@ -173,7 +186,7 @@ class ComparedSearch : public SingleAgentPlanner {
     return trajectory;
   }
 
-  double lower_bound_s(AgentIndex agent) const override { return search_.lower_bound_s(agent); }
+  double lower_bound_s(AgentIndex agent) const override { return search_->lower_bound_s(agent); }
 
   const Seen& seen() const { return seen_; }
   /// Of all robots and tries.
@@ -181,8 +194,15 @@ class ComparedSearch : public SingleAgentPlanner {
 
  private:
   void compare(AgentIndex agent, std::optional<double> arrival_s) {
-    const LoneRobot robot{instance_.agents[agent].start, instance_.agents[agent].goal, posed_.radii[agent],
-                          instance_.agents[agent].speed_cells_per_s, options_.connectedness};
+    const Agent& asked = instance_.agents[agent];
+    const MotionRules& rules = options_.rules;
+    LoneRobot robot{asked.start, asked.goal, posed_.radii[agent], asked.speed_cells_per_s,
+                    options_.connectedness};
+    if (rules.turns)
+      robot.turning = {asked.start_heading_deg, asked.goal_heading_deg, 180 * asked.rotation_speed};
+    robot.wait_before_move_s = rules.wait_before_move_s;
+    robot.extra_reach_cells = rules.inflate_distance_cells;
+    robot.extra_time_s = rules.inflate_time_s;
     std::vector<MovingDisk> disks;
     std::vector<Forbidden> forbidden;
     look_round(agent, disks, forbidden);
@@ -225,14 +245,20 @@ class ComparedSearch : public SingleAgentPlanner {
   const Posed& posed_;
   const Instance& instance_;
   const PlannerOptions& options_;
-  SippSearch search_;
+  std::unique_ptr<SingleAgentPlanner> search_;
   std::vector<std::optional<Trajectory>> planned_;  ///< in this try
   Seen seen_;
   SearchStatistics work_;
 };
 
-Seen compares_well(bool any_angle) {
-  const Posed posed = sipplab::posed(any_world(), any_angle);
+enum class Robots { kPlain, kTurning };
+
+Seen compares_well(bool any_angle, Robots robots) {
+  Posed posed = sipplab::posed(any_world(), any_angle);
+  if (robots == Robots::kTurning) {
+    const auto seed = *rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>());
+    posed.plan_case = with_motion_rules(posed.plan_case, seed);
+  }
   note_case(posed.plan_case);
   ComparedSearch search(posed);
   const PlanResult result = plan_prioritized(posed.plan_case.instance, posed.plan_case.options, search);
@@ -246,11 +272,11 @@ Seen compares_well(bool any_angle) {
   return search.seen();
 }
 
-void compare_worlds(bool any_angle) {
+void compare_worlds(bool any_angle, Robots robots = Robots::kPlain) {
   Seen all;
   const int worlds = any_angle ? kAnyAngleWorldsPerCase : kWorldsPerCase;
   for (int i = 0; i < worlds; ++i) {
-    const Seen seen = compares_well(any_angle);
+    const Seen seen = compares_well(any_angle, robots);
     all.planned += seen.planned > 1;
     all.pardoned += seen.pardoned;
     all.failed += seen.failed;
@@ -275,6 +301,10 @@ int main() {
 
   passed &= property("each robot of each try arrives no later at any angle than stepwise",
                      [] { compare_worlds(true); });
+
+  passed &=
+      property("with headings, delays and inflation, too, each arrives as early as an exhaustive search",
+               [] { compare_worlds(false, Robots::kTurning); });
 
   return passed ? 0 : 1;
 }

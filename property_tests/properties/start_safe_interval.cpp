@@ -37,6 +37,7 @@ void keeps_its_promise(const Solved& solved) {
   if (solved.result.status != PlanStatus::kSolved) return;
   ValidationOptions options;
   options.ssi_s = solved.plan_case.options.ssi_s;
+  options.rules = solved.plan_case.options.rules;
   options.order = solved.result.order();
   const ValidationReport report = validate(solved.plan_case.instance, solved.result.solution, options);
   for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';

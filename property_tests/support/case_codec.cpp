@@ -50,6 +50,9 @@ bool read_robot(Words& words, Instance& instance) {
     const std::string_view word = words.next();
     if (word == "radius" && words.read(agent.radius_cells)) continue;
     if (word == "speed" && words.read(agent.speed_cells_per_s)) continue;
+    if (word == "heading" && words.read(agent.start_heading_deg)) continue;
+    if (word == "goal-heading" && words.read(agent.goal_heading_deg.emplace())) continue;
+    if (word == "rotation" && words.read(agent.rotation_speed)) continue;
     return false;
   }
   instance.agents.push_back(std::move(agent));
@@ -80,15 +83,25 @@ bool assign(Value& value, const std::optional<Value>& read) {
   return read.has_value();
 }
 
+bool read_yes_or_no(Words& words, bool& choice) {
+  const std::string_view word = words.next();
+  choice = word == "yes";
+  return choice || word == "no";
+}
+
+bool read_margin(Words& words, double& margin) {
+  return words.read(margin) && margin >= 0 && margin <= kMaxMotionMargin;
+}
+
 bool read_option(std::string_view name, Words& words, PlannerOptions& options) {
   if (name == "ssi") return assign(options.ssi_s, parse_ssi(words.next()));
   if (name == "order") return assign(options.order, parse_initial_order(words.next()));
   if (name == "reschedule") return assign(options.rescheduling, parse_rescheduling(words.next()));
-  if (name == "any-angle") {
-    const std::string_view word = words.next();
-    options.any_angle = word == "yes";
-    return word == "yes" || word == "no";
-  }
+  if (name == "any-angle") return read_yes_or_no(words, options.any_angle);
+  if (name == "turns") return read_yes_or_no(words, options.rules.turns);
+  if (name == "wait-before-move") return read_margin(words, options.rules.wait_before_move_s);
+  if (name == "inflate-distance") return read_margin(words, options.rules.inflate_distance_cells);
+  if (name == "inflate-time") return read_margin(words, options.rules.inflate_time_s);
   if (name == "connectedness") {
     return words.read(options.connectedness) && options.connectedness >= 2 && options.connectedness <= 5;
   }
@@ -163,6 +176,9 @@ std::string encode_case(const PlanCase& plan_case) {
     out += "robot " + text(agent.start) + " to " + text(agent.goal);
     if (agent.radius_cells != kDefaultRadiusCells) out += " radius " + text(agent.radius_cells);
     if (agent.speed_cells_per_s != kDefaultSpeedCellsPerS) out += " speed " + text(agent.speed_cells_per_s);
+    if (agent.start_heading_deg != 0) out += " heading " + text(agent.start_heading_deg);
+    if (agent.goal_heading_deg) out += " goal-heading " + text(*agent.goal_heading_deg);
+    if (agent.rotation_speed != kDefaultRotationSpeed) out += " rotation " + text(agent.rotation_speed);
     out += '\n';
   }
   for (const DynamicObstacle& obstacle : instance.obstacles) {
@@ -177,6 +193,14 @@ std::string encode_case(const PlanCase& plan_case) {
   out += "reschedule " + std::string(name(options.rescheduling)) + '\n';
   out += std::string("any-angle ") + (options.any_angle ? "yes" : "no") + '\n';
   out += "connectedness " + std::to_string(options.connectedness) + '\n';
+  const MotionRules& rules = options.rules;
+  if (rules.turns) out += "turns yes\n";
+  const auto add_margin = [&out](const char* name, double margin) {
+    if (margin != 0) out += name + text(margin) + '\n';
+  };
+  add_margin("wait-before-move ", rules.wait_before_move_s);
+  add_margin("inflate-distance ", rules.inflate_distance_cells);
+  add_margin("inflate-time ", rules.inflate_time_s);
   out += "seed " + std::to_string(options.seed) + '\n';
   const PlannerOptions defaults;
   if (options.max_expansions != defaults.max_expansions) {

@@ -4,12 +4,17 @@
 //     .@..
 //     robot 0 0 to 3 1
 //     robot 3 0 to 0 1 radius 0.25 speed 2
+//     robot 1 0 to 1 1 heading 90 goal-heading 180 rotation 0.5
 //     obstacle 2 0 radius 0.5 until 1.5 at 2 0 until 3 at 3 0
 //     ssi 2.5
 //     order fifo
 //     reschedule none
 //     any-angle no
 //     connectedness 3
+//     turns yes
+//     wait-before-move 0.5
+//     inflate-distance 0.25
+//     inflate-time 0.25
 //     seed 7
 //     max-expansions 1000
 //     max-restarts 20
@@ -41,7 +46,7 @@ inline constexpr std::size_t kMaxCaseMotions = 64;
 std::optional<PlanCase> decode_case(std::string_view text);
 
 /// Text that decode_case reads back as the same case, except for what it leaves
-/// out: ids, headings, rotation speeds and the wall-clock limit.
+/// out: ids and the wall-clock limit.
 std::string encode_case(const PlanCase& plan_case);
 
 }  // namespace sipplab

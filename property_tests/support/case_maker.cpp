@@ -224,6 +224,21 @@ PlanCase make_case(CaseFamily family, int size, std::uint64_t seed) {
   return plan_case;
 }
 
+PlanCase with_motion_rules(PlanCase plan_case, std::uint64_t seed) {
+  Random random(seed);
+  for (Agent& agent : plan_case.instance.agents) {
+    agent.start_heading_deg = draw_heading(random);
+    agent.goal_heading_deg = draw_goal_heading(random);
+    agent.rotation_speed = draw_rotation_speed(random);
+  }
+  MotionRules& rules = plan_case.options.rules;
+  rules.turns = true;
+  if (one_in(random, 4)) rules.wait_before_move_s = draw_eighths(random, 1);
+  if (one_in(random, 4)) rules.inflate_distance_cells = draw_eighths(random, 1);
+  if (one_in(random, 4)) rules.inflate_time_s = draw_eighths(random, 1);
+  return plan_case;
+}
+
 double draw_eighths(Random& random, std::uint64_t limit) {
   return static_cast<double>(random.below(8 * limit + 1)) / 8;
 }
@@ -240,6 +255,21 @@ double draw_radius(Random& random) {
 
 double draw_speed(Random& random) {
   return pick(random, std::array{0.25, 0.5, 0.75, 1.0, 1.0, 1.5, 2.0, 3.0});
+}
+
+double draw_heading(Random& random) {
+  constexpr double kEighthTurnDeg = 45;
+  const auto eighths = static_cast<double>(random.below(8));
+  return eighths * kEighthTurnDeg + (one_in(random, 4) ? draw_eighths(random, 44) : 0.0);
+}
+
+double draw_rotation_speed(Random& random) {
+  return pick(random, std::array{0.125, 0.25, 0.5, 1.0, 1.0, 2.0, 8.0});
+}
+
+std::optional<double> draw_goal_heading(Random& random) {
+  if (one_in(random, 2)) return std::nullopt;
+  return draw_heading(random);
 }
 
 }  // namespace sipplab

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -26,11 +27,21 @@ std::string_view name(CaseFamily family);
 /// robots. The same seed gives the same case.
 PlanCase make_case(CaseFamily family, int size, std::uint64_t seed);
 
+/// The same case for robots with headings, and one time in four each with a delay, a
+/// distance or a time to keep as well. Keeps the rules of find_error.
+PlanCase with_motion_rules(PlanCase plan_case, std::uint64_t seed);
+
 /// k/8 for a uniform k in 0 .. 8 * limit.
 double draw_eighths(Random& random, std::uint64_t limit);
 /// Uniform over the cells of a map.
 Cell draw_cell(Random& random, const GridMap& map);
 double draw_radius(Random& random);
 double draw_speed(Random& random);
+/// Degrees: mostly a direction of moves, now and then anything on a lattice.
+double draw_heading(Random& random);
+/// Half turns per second.
+double draw_rotation_speed(Random& random);
+/// None, or a heading.
+std::optional<double> draw_goal_heading(Random& random);
 
 }  // namespace sipplab

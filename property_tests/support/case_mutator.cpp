@@ -64,7 +64,7 @@ void change_robot(Random& random, Instance& instance) {
   auto& agents = instance.agents;
   if (agents.empty()) return add_robot(random, instance);
   Agent& agent = pick(random, agents);
-  switch (random.below(8)) {
+  switch (random.below(10)) {
     case 0:
       agent.start = near_or_far(random, instance.map, agent.start);
       break;
@@ -85,6 +85,13 @@ void change_robot(Random& random, Instance& instance) {
       break;
     case 6:
       agent.speed_cells_per_s = one_in(random, 2) ? kDefaultSpeedCellsPerS : draw_speed(random);
+      break;
+    case 7:
+      agent.start_heading_deg = draw_heading(random);
+      agent.goal_heading_deg = draw_goal_heading(random);
+      break;
+    case 8:
+      agent.rotation_speed = draw_rotation_speed(random);
       break;
     default:
       std::swap(agent, pick(random, agents));  // another priority
@@ -168,7 +175,7 @@ void change_options(Random& random, PlannerOptions& options) {
                                       InitialOrder::kLongestFirst, InitialOrder::kRandom};
   constexpr Rescheduling kReschedulings[] = {Rescheduling::kNone, Rescheduling::kDeterministic,
                                              Rescheduling::kRandom};
-  switch (random.below(6)) {
+  switch (random.below(8)) {
     case 0:
       options.ssi_s = one_in(random, 4) ? kInfiniteSsi : one_in(random, 4) ? 0 : draw_eighths(random, 8);
       break;
@@ -183,6 +190,14 @@ void change_options(Random& random, PlannerOptions& options) {
       break;
     case 4:
       options.connectedness = 2 + static_cast<int>(random.below(4));
+      break;
+    case 5:
+      options.rules.turns = !options.rules.turns;
+      break;
+    case 6:
+      options.rules.wait_before_move_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      options.rules.inflate_distance_cells = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      options.rules.inflate_time_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
       break;
     default:
       options.seed = random.below(1000);

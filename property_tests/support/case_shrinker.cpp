@@ -22,6 +22,7 @@ class Shrinker {
     fewer_blocked_cells();
     plainer_bodies();
     plainer_options();
+    fewer_rules();
     return std::move(simpler_);
   }
 
@@ -116,6 +117,13 @@ class Shrinker {
       if (agent.speed_cells_per_s != kDefaultSpeedCellsPerS) {
         offer([&](PlanCase& it) { it.instance.agents[i].speed_cells_per_s = kDefaultSpeedCellsPerS; });
       }
+      if (agent.start_heading_deg != 0)
+        offer([&](PlanCase& it) { it.instance.agents[i].start_heading_deg = 0; });
+      if (agent.goal_heading_deg)
+        offer([&](PlanCase& it) { it.instance.agents[i].goal_heading_deg.reset(); });
+      if (agent.rotation_speed != kDefaultRotationSpeed) {
+        offer([&](PlanCase& it) { it.instance.agents[i].rotation_speed = kDefaultRotationSpeed; });
+      }
       if (agent.goal != agent.start) offer([&](PlanCase& it) { it.instance.agents[i].goal = agent.start; });
     }
   }
@@ -134,6 +142,15 @@ class Shrinker {
     if (std::isinf(options.ssi_s)) offer([](PlanCase& it) { it.options.ssi_s = 8; });
     if (options.ssi_s != std::floor(options.ssi_s))
       offer([](PlanCase& it) { it.options.ssi_s = std::floor(it.options.ssi_s); });
+  }
+
+  void fewer_rules() {
+    const MotionRules& rules = from_.options.rules;
+    if (rules.turns) offer([](PlanCase& it) { it.options.rules.turns = false; });
+    if (rules.wait_before_move_s > 0) offer([](PlanCase& it) { it.options.rules.wait_before_move_s = 0; });
+    if (rules.inflate_distance_cells > 0)
+      offer([](PlanCase& it) { it.options.rules.inflate_distance_cells = 0; });
+    if (rules.inflate_time_s > 0) offer([](PlanCase& it) { it.options.rules.inflate_time_s = 0; });
   }
 
   const PlanCase& from_;

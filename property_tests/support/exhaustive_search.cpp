@@ -16,12 +16,15 @@ namespace {
 /// rounding, smaller than any true difference on the lattices of the tests.
 constexpr double kSlotS = 1e-8;
 
-/// Unsafe times that the spans found by bisection give.
-void add_unsafe(const BisectedSpan& span, Contacts contacts, std::vector<OpenInterval>& unsafe) {
+/// Unsafe times that the spans found by bisection give, `extra_s` sooner and later.
+void add_unsafe(const BisectedSpan& span, Contacts contacts, double extra_s,
+                std::vector<OpenInterval>& unsafe) {
   if (span.empty) return;
   const bool allowed = contacts == Contacts::kAllowed;
-  unsafe.push_back({allowed && span.contact_begin ? span.begin_s + kSlotS : span.begin_s - kSlotS,
-                    allowed && span.contact_end ? span.end_s - kSlotS : span.end_s + kSlotS});
+  const double begin_s = span.begin_s - extra_s;
+  const double end_s = span.end_s + extra_s;
+  unsafe.push_back({allowed && span.contact_begin ? begin_s + kSlotS : begin_s - kSlotS,
+                    allowed && span.contact_end ? end_s - kSlotS : end_s + kSlotS});
 }
 
 /// What the unsafe spans leave of [0, infinity).
@@ -63,8 +66,23 @@ Within within(Vec2 place, double reach, Vec2 from, Vec2 to) {
   return {nearest - half, nearest + half, nearest - half > length || nearest + half < 0};
 }
 
+/// Degrees. Of a direction of the grid, by its tangent within a quarter.
+double direction_deg(Cell step) {
+  double quarters = 0;
+  Cell turned = step;  // until it points right or up, with y growing downwards
+  while (!(turned.x > 0 && turned.y <= 0)) {
+    turned = {-turned.y, turned.x};
+    quarters += 1;
+  }
+  return 90 * quarters + std::atan(static_cast<double>(-turned.y) / turned.x) * (180 / std::acos(-1.0));
+}
+
+/// Degrees, the shorter way round.
+double between_deg(double a, double b) { return std::abs(std::remainder(a - b, 360)); }
+
 struct Label {
   Cell cell;
+  std::size_t heading;  ///< position in Search::headings_deg_
   Interval interval;
   double arrival_s = kForever;
   bool settled = false;
@@ -80,54 +98,81 @@ class Search {
         forbidden_(forbidden),
         contacts_(contacts),
         steps_(mediant_neighbourhood(robot.connectedness)) {
+    // Without turning one heading stands for all; else each step's, and that of the start.
+    if (robot.turning) {
+      for (const Cell step : steps_) headings_deg_.push_back(direction_deg(step));
+    }
+    headings_deg_.push_back(robot.turning ? robot.turning->start_deg : 0);
     for (std::size_t i = 0; i < map.cell_count(); ++i) {
       const Cell cell = map.cell(i);
       if (!exactly_legal(map, robot.radius, cell) || is_forbidden(cell, cell)) continue;
       std::vector<OpenInterval> unsafe;
       for (const MovingDisk& disk : disks) {
-        add_unsafe(bisect_collision(centre(cell), disk, reach(disk)), contacts_, unsafe);
+        add_unsafe(bisect_collision(centre(cell), disk, reach(disk)), contacts_, robot.extra_time_s, unsafe);
       }
       for (const Interval& interval : safe_between(unsafe)) {
         const bool at_start = cell == robot.start && interval.contains(0);
-        labels_.push_back({cell, interval, at_start ? 0 : kForever, false});
+        for (std::size_t heading = 0; heading < headings_deg_.size(); ++heading) {
+          const bool faces_start = heading + 1 == headings_deg_.size();
+          labels_.push_back({cell, heading, interval, at_start && faces_start ? 0 : kForever, false});
+        }
       }
     }
   }
 
   std::optional<double> run() {
+    double best_s = kForever;  // of labels at the goal, their last turn done
     while (true) {
       Label* next = nullptr;
       for (Label& label : labels_) {
         if (!label.settled && (!next || label.arrival_s < next->arrival_s)) next = &label;
       }
-      if (!next || next->arrival_s == kForever) return std::nullopt;
-      if (next->cell == robot_.goal && next->interval.end_s == kForever) return next->arrival_s;
+      if (!next || next->arrival_s == kForever || next->arrival_s >= best_s) break;
+      if (next->cell == robot_.goal && next->interval.end_s == kForever) {
+        best_s = std::min(best_s, next->arrival_s + last_turn_s(*next));
+      }
       next->settled = true;
-      for (const Cell step : steps_) leave(*next, {next->cell.x + step.x, next->cell.y + step.y});
+      for (std::size_t step = 0; step < steps_.size(); ++step) leave(*next, step);
     }
+    if (best_s == kForever) return std::nullopt;
+    return best_s;
   }
 
  private:
+  double turn_s(double from_deg, double to_deg) const {
+    return robot_.turning ? between_deg(from_deg, to_deg) / robot_.turning->deg_per_s : 0;
+  }
+  double last_turn_s(const Label& label) const {
+    const bool matters = robot_.turning && robot_.turning->goal_deg;
+    return matters ? turn_s(headings_deg_[label.heading], *robot_.turning->goal_deg) : 0;
+  }
   double reach(const MovingDisk& disk) const { return robot_.radius.value() + disk.radius; }
 
   bool is_forbidden(Cell from, Cell to) const {
     return std::any_of(forbidden_.begin(), forbidden_.end(), [&](const Forbidden& forbidden) {
       const double tolerated = contacts_ == Contacts::kAllowed ? kEdgeCells : -kEdgeCells;
-      return intrusion_cells(forbidden, centre(from), centre(to)) > tolerated;
+      const double reach = forbidden.reach + (from == to ? 0 : robot_.extra_reach_cells);
+      return intrusion_cells({forbidden.place, reach, forbidden.pardoned}, centre(from), centre(to)) >
+             tolerated;
     });
   }
 
-  void leave(const Label& from, Cell to) {
+  void leave(const Label& from, std::size_t step) {
+    const Cell to{from.cell.x + steps_[step].x, from.cell.y + steps_[step].y};
+    const std::size_t heading = robot_.turning ? step : 0;
+    const double ready_s = from.arrival_s + turn_s(headings_deg_[from.heading], headings_deg_[heading]) +
+                           robot_.wait_before_move_s;
     if (!exactly_legal(map_, robot_.radius, to) || !exactly_clear(map_, robot_.radius, from.cell, to)) return;
     if (is_forbidden(from.cell, to)) return;
     const Move move(Displacement(centre(from.cell), centre(to)), robot_.speed);
     std::vector<OpenInterval> unsafe;
     for (const MovingDisk& disk : disks_)
-      add_unsafe(bisect_departures(move, disk, reach(disk)), contacts_, unsafe);
+      add_unsafe(bisect_departures(move, disk, reach(disk) + robot_.extra_reach_cells), contacts_,
+                 robot_.extra_time_s, unsafe);
     const std::vector<Interval> departures = safe_between(unsafe);
     for (Label& target : labels_) {
-      if (target.cell != to || target.settled) continue;
-      const double first_s = std::max(from.arrival_s, target.interval.begin_s - move.duration);
+      if (target.cell != to || target.heading != heading || target.settled) continue;
+      const double first_s = std::max(ready_s, target.interval.begin_s - move.duration);
       const double last_s = std::min(from.interval.end_s, target.interval.end_s - move.duration);
       for (const Interval& departure : departures) {
         const double departure_s = std::max(first_s, departure.begin_s);
@@ -144,6 +189,7 @@ class Search {
   const std::vector<Forbidden>& forbidden_;
   Contacts contacts_;
   std::vector<Cell> steps_;
+  std::vector<double> headings_deg_;
   std::vector<Label> labels_;
 };
 

@@ -16,12 +16,23 @@ namespace sipplab {
 /// units, then, k - 2 times, the sum of each two that stand next to each other.
 std::vector<Cell> mediant_neighbourhood(int k);
 
+/// What a robot with a heading starts with, ends with and turns by, in degrees.
+struct Turning {
+  double start_deg = 0;
+  std::optional<double> goal_deg;
+  double deg_per_s = 180;
+};
+
 struct LoneRobot {
   Cell start;
   Cell goal;
   Fraction radius;
   double speed = 1;
   int connectedness = 2;
+  std::optional<Turning> turning = std::nullopt;  ///< none: headings do not count
+  double wait_before_move_s = 0;
+  double extra_reach_cells = 0;  ///< that a moving robot keeps beyond the radii
+  double extra_time_s = 0;       ///< that it keeps before and after others, moving or not
 };
 
 /// A place that the robot may come within reach of only while it is within the same reach
@@ -43,8 +54,9 @@ enum class Contacts {
   kAvoided,  ///< where a contact is left out, so is what is nearly one
 };
 
-/// When the robot can be at its goal for good, at the earliest; nothing where it never
-/// can. Exact to some 1e-8 s per move.
+/// When the robot can be at its goal for good, at the earliest, the turn to its goal heading
+/// done; nothing where it never can. Every heading of arrival is a label of its own. Exact to some 1e-8 s per
+/// move.
 std::optional<double> earliest_arrival_s(const GridMap& map, const std::vector<MovingDisk>& disks,
                                          const LoneRobot& robot, const std::vector<Forbidden>& forbidden = {},
                                          Contacts contacts = Contacts::kAllowed);

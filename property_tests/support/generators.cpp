@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "planner/core/tolerances.hpp"
 #include "property_tests/support/case_shrinker.hpp"
@@ -26,6 +27,17 @@ rc::Gen<PlanCase> shrinking(rc::Gen<PlanCase> cases) {
   });
 }
 
+/// Of all families, without shrinking.
+rc::Gen<PlanCase> any_plain_case() {
+  return rc::gen::withSize([](int size) {
+    return rc::gen::apply(
+        [size](int family, std::uint64_t seed) {
+          return make_case(static_cast<CaseFamily>(family), size, seed);
+        },
+        any_below(kCaseFamilies), any_seed());
+  });
+}
+
 bool has_touching_starts(const Instance& instance) {
   for (std::size_t i = 0; i < instance.agents.size(); ++i) {
     for (std::size_t j = i + 1; j < instance.agents.size(); ++j) {
@@ -40,14 +52,12 @@ bool has_touching_starts(const Instance& instance) {
 
 }  // namespace
 
-rc::Gen<PlanCase> any_case() {
-  return shrinking(rc::gen::withSize([](int size) {
-    return rc::gen::apply(
-        [size](int family, std::uint64_t seed) {
-          return make_case(static_cast<CaseFamily>(family), size, seed);
-        },
-        any_below(kCaseFamilies), any_seed());
-  }));
+rc::Gen<PlanCase> any_case() { return shrinking(any_plain_case()); }
+
+rc::Gen<PlanCase> any_turning_case() {
+  return shrinking(rc::gen::apply(
+      [](PlanCase plan_case, std::uint64_t seed) { return with_motion_rules(std::move(plan_case), seed); },
+      any_plain_case(), any_seed()));
 }
 
 rc::Gen<PlanCase> any_case_of(CaseFamily family) {
@@ -81,6 +91,12 @@ void classify_case(const PlanCase& plan_case) {
   RC_CLASSIFY(!instance.obstacles.empty(), "moving obstacles");
   RC_CLASSIFY(plan_case.options.ssi_s != std::floor(plan_case.options.ssi_s), "fractional ssi");
   RC_CLASSIFY(std::isinf(plan_case.options.ssi_s), "infinite ssi");
+  const MotionRules& rules = plan_case.options.rules;
+  if (rules.is_plain()) return;
+  RC_CLASSIFY(rules.turns, "turns");
+  RC_CLASSIFY(rules.wait_before_move_s > 0, "delays");
+  RC_CLASSIFY(rules.inflate_distance_cells > 0, "inflated distance");
+  RC_CLASSIFY(rules.inflate_time_s > 0, "inflated time");
 }
 
 }  // namespace sipplab

@@ -13,6 +13,8 @@ namespace sipplab {
 rc::Gen<PlanCase> any_case();
 /// Cases of one family.
 rc::Gen<PlanCase> any_case_of(CaseFamily family);
+/// Cases of all families for robots with headings, delays and inflations.
+rc::Gen<PlanCase> any_turning_case();
 
 rc::Gen<Scene> any_scene();
 

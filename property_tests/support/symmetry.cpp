@@ -1,20 +1,29 @@
 // Symmetric scenes; see symmetry.hpp.
 #include "property_tests/support/symmetry.hpp"
 
+#include <cmath>
+
 namespace sipplab {
 namespace {
 
-template <class MapCell>
-void move_cells(Trajectory& trajectory, const MapCell& map_cell) {
+/// 0 to less than 360 again.
+double wrapped(double heading_deg) {
+  const double degrees = std::fmod(heading_deg, 360);
+  return degrees < 0 ? degrees + 360 : degrees;
+}
+
+template <class MapCell, class MapHeading>
+void move_cells(Trajectory& trajectory, const MapCell& map_cell, const MapHeading& map_heading) {
   trajectory.start = map_cell(trajectory.start);
   for (TimedMotion& motion : trajectory.motions) {
     motion.from = map_cell(motion.from);
     motion.to = map_cell(motion.to);
+    if (motion.turn_to_deg) motion.turn_to_deg = map_heading(*motion.turn_to_deg);
   }
 }
 
-template <class MapCell>
-Scene moved(const Scene& scene, GridMap map, const MapCell& map_cell) {
+template <class MapCell, class MapHeading>
+Scene moved(const Scene& scene, GridMap map, const MapCell& map_cell, const MapHeading& map_heading) {
   for (std::size_t i = 0; i < scene.instance.map.cell_count(); ++i) {
     const Cell cell = scene.instance.map.cell(i);
     map.set_blocked(map_cell(cell), scene.instance.map.is_blocked(cell));
@@ -24,9 +33,15 @@ Scene moved(const Scene& scene, GridMap map, const MapCell& map_cell) {
   for (Agent& agent : result.instance.agents) {
     agent.start = map_cell(agent.start);
     agent.goal = map_cell(agent.goal);
+    agent.start_heading_deg = map_heading(agent.start_heading_deg);
+    if (agent.goal_heading_deg) agent.goal_heading_deg = map_heading(*agent.goal_heading_deg);
   }
-  for (DynamicObstacle& obstacle : result.instance.obstacles) move_cells(obstacle.trajectory, map_cell);
-  for (Trajectory& trajectory : result.solution.trajectories) move_cells(trajectory, map_cell);
+  for (DynamicObstacle& obstacle : result.instance.obstacles) {
+    move_cells(obstacle.trajectory, map_cell, map_heading);
+  }
+  for (Trajectory& trajectory : result.solution.trajectories) {
+    move_cells(trajectory, map_cell, map_heading);
+  }
   return result;
 }
 
@@ -41,21 +56,30 @@ void slow(Trajectory& trajectory, double factor) {
 
 Scene rotated(const Scene& scene) {
   const GridMap& map = scene.instance.map;
-  return moved(scene, GridMap(map.height(), map.width()), [&](Cell cell) {
-    return Cell{map.height() - 1 - cell.y, cell.x};
-  });
+  return moved(
+      scene, GridMap(map.height(), map.width()),
+      [&](Cell cell) {
+        return Cell{map.height() - 1 - cell.y, cell.x};
+      },
+      [](double heading_deg) { return wrapped(heading_deg - 90); });
 }
 
 Scene reflected(const Scene& scene) {
   const GridMap& map = scene.instance.map;
-  return moved(scene, GridMap(map.width(), map.height()), [&](Cell cell) {
-    return Cell{map.width() - 1 - cell.x, cell.y};
-  });
+  return moved(
+      scene, GridMap(map.width(), map.height()),
+      [&](Cell cell) {
+        return Cell{map.width() - 1 - cell.x, cell.y};
+      },
+      [](double heading_deg) { return wrapped(180 - heading_deg); });
 }
 
 Scene slowed(const Scene& scene, double factor) {
   Scene result = scene;
-  for (Agent& agent : result.instance.agents) agent.speed_cells_per_s /= factor;
+  for (Agent& agent : result.instance.agents) {
+    agent.speed_cells_per_s /= factor;
+    agent.rotation_speed /= factor;
+  }
   for (DynamicObstacle& obstacle : result.instance.obstacles) slow(obstacle.trajectory, factor);
   for (Trajectory& trajectory : result.solution.trajectories) slow(trajectory, factor);
   return result;

@@ -17,7 +17,7 @@ struct Scene {
 Scene rotated(const Scene& scene);
 /// Left and right exchanged.
 Scene reflected(const Scene& scene);
-/// All times `factor` times as long, all speeds lower by it. Exact for powers of two.
+/// All times `factor` times as long, all speeds (of rotation, too) lower by it. Exact for powers of two.
 Scene slowed(const Scene& scene, double factor);
 /// Without one agent.
 Scene without_agent(const Scene& scene, AgentIndex agent);

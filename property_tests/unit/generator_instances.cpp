@@ -26,7 +26,7 @@ Instance generated(const char* map, std::size_t agents, std::uint64_t seed, std:
   options.agents = agents;
   options.seed = seed;
   options.index = index;
-  options.radius_cells = radius_cells;
+  options.radii_cells = {radius_cells};
   const Expected<Instance, std::string> instance = generate_instance(spec_of(map), options);
   EXPECT_TRUE(instance) << (instance ? "" : instance.error());
   return instance ? *instance : Instance{};
@@ -100,14 +100,60 @@ TEST(GeneratorInstances, TooManyRobotsAreOneLine) {
             "or a larger "
             "map");
   options.agents = 2;
-  options.radius_cells = 2;
+  options.radii_cells = {2};
   EXPECT_EQ(generate_instance(spec_of("empty:5x5"), options).error(),
             "2 robots of radius 2 do not fit on the map: starts were found for 1, expected fewer robots or a "
             "larger map");
   for (const double radius_cells : {-1.0, 0.0009, 64.1}) {
-    options.radius_cells = radius_cells;
+    options.radii_cells = {radius_cells};
     EXPECT_EQ(generate_instance(spec_of("empty:5x4"), options).error(),
               "radius out of range, expected 0.001 to 64 cells");
+  }
+}
+
+TEST(GeneratorInstances, BodiesAreDrawnFromWhatIsAskedFor) {
+  GeneratorOptions options;
+  options.agents = 40;
+  options.radii_cells = {0.3, 0.5, 0.9, 1.4};
+  options.speeds_cells_per_s = {0.5, 1, 2};
+  options.rotation_speeds = {0.25, 1};
+  options.headings = true;
+  const Expected<Instance, std::string> instance = generate_instance(spec_of("empty:32x32"), options);
+  ASSERT_TRUE(instance) << instance.error();
+  EXPECT_FALSE(find_error(*instance));
+  std::set<double> radii, speeds, rotation_speeds, headings;
+  std::size_t whatever = 0;
+  for (const Agent& agent : instance->agents) {
+    radii.insert(agent.radius_cells);
+    speeds.insert(agent.speed_cells_per_s);
+    rotation_speeds.insert(agent.rotation_speed);
+    headings.insert(agent.start_heading_deg);
+    if (!agent.goal_heading_deg) ++whatever;
+  }
+  EXPECT_EQ(radii, (std::set<double>{0.3, 0.5, 0.9, 1.4}));
+  EXPECT_EQ(speeds, (std::set<double>{0.5, 1, 2}));
+  EXPECT_EQ(rotation_speeds, (std::set<double>{0.25, 1}));
+  EXPECT_GT(headings.size(), 20u);
+  EXPECT_GT(whatever, 5u);
+  EXPECT_LT(whatever, 35u);
+
+  // Speeds and headings leave the places alone.
+  options.speeds_cells_per_s = {1};
+  options.headings = false;
+  const Expected<Instance, std::string> plain = generate_instance(spec_of("empty:32x32"), options);
+  ASSERT_TRUE(plain);
+  std::set<double> plain_radii;
+  for (const Agent& agent : plain->agents) {
+    plain_radii.insert(agent.radius_cells);
+    EXPECT_EQ(agent.start_heading_deg, 0);
+    EXPECT_FALSE(agent.goal_heading_deg);
+  }
+  EXPECT_EQ(plain_radii, radii);
+
+  for (std::vector<double> rotation_speeds_out : {std::vector<double>{}, {1, 0}, {2000}}) {
+    options.rotation_speeds = rotation_speeds_out;
+    EXPECT_EQ(generate_instance(spec_of("empty:5x4"), options).error(),
+              "rotation speed out of range, expected 0.001 to 1000 half turns per second");
   }
 }
 

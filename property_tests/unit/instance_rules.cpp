@@ -54,7 +54,7 @@ TEST(FindError, NamesEachMistakeInAnAgent) {
       {"speed infinite", [](Agent& a) { a.speed_cells_per_s = kInfinity; },
        "agent 1: speed inf, expected a number from 0.001 to 1000"},
       {"rotation speed 0", [](Agent& a) { a.rotation_speed = 0; },
-       "agent 1: rotation speed 0, expected a finite number above 0"},
+       "agent 1: rotation speed 0, expected a number from 0.001 to 1000"},
       {"start heading 360", [](Agent& a) { a.start_heading_deg = 360; },
        "agent 1: start heading 360, expected a number from 0 to less than 360"},
       {"goal heading NaN", [](Agent& a) { a.goal_heading_deg = kNan; },

@@ -97,18 +97,20 @@ TEST_F(IoLoadInstance, AllInOneFile) {
   expected.order = InitialOrder::kLongestFirst;
   expected.ssi_s = 2.5;
   expected.time_limit_s = std::numeric_limits<double>::infinity();
-  expected.plan_for_turns = true;
+  expected.turns = true;
   expected.wait_before_move_s = 0.5;
-  expected.inflate_collision_intervals_s = 0;
+  expected.inflate_distance_cells = 0;
   expected.log_level = 1;
   EXPECT_EQ(loaded->options, expected);
-  EXPECT_EQ(unplanned_features(loaded->options),
-            (std::vector<std::string>{"planforturns", "waitbeforemove 0.5"}));
   PlannerOptions options;
   apply(loaded->options, options);
   EXPECT_EQ(options.ssi_s, 2.5);
   EXPECT_EQ(options.connectedness, 4);
   EXPECT_FALSE(options.any_angle);
+  MotionRules rules;
+  rules.turns = true;
+  rules.wait_before_move_s = 0.5;
+  EXPECT_EQ(options.rules, rules);
 }
 
 TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "planner/grid/heading.hpp"
 #include "planner/io/write_instance.hpp"
 #include "planner/io/xml_instance.hpp"
 
@@ -79,6 +80,7 @@ void expect_equal(const SolutionDocument& read, const SolutionDocument& written)
   EXPECT_EQ(read.options->any_angle, written.options->any_angle);
   EXPECT_EQ(read.options->connectedness, written.options->connectedness);
   EXPECT_EQ(read.options->seed, written.options->seed);
+  EXPECT_EQ(read.options->rules, written.options->rules);
 }
 
 std::string error_of(const std::string& text, const Instance& instance) {
@@ -98,6 +100,121 @@ TEST(IoSolution, JsonAndXmlSurviveTheRoundTripBitByBit) {
       expect_equal(*read, document);
     }
   }
+}
+
+/// The document of three robots with turns: before the first move, between two moves, in
+/// the middle of a wait, and to the goal heading of a robot that never leaves.
+SolutionDocument turning_document(const Instance& instance) {
+  SolutionDocument document = awkward_document(instance);
+  document.options->rules.turns = true;
+  document.options->rules.wait_before_move_s = 0.1;
+  document.options->rules.inflate_distance_cells = 1.0 / 3;
+  document.options->rules.inflate_time_s = 2.0 / 3;
+  const double third = 1.0 / 3;
+  document.solution.trajectories = {
+      {{0, 0},
+       {{0, third, {0, 0}, {0, 0}, 315.0},
+        {third, 1, {0, 0}, {0, 0}},
+        {1, 2.5, {0, 0}, {1, 1}},
+        {2.5, 2.75, {1, 1}, {1, 1}},
+        {2.75, 3, {1, 1}, {1, 1}, heading_deg({1, 1}, {7, 2})},
+        {3, 3.5, {1, 1}, {7, 2}}}},
+      {{0, 2}, {}},
+      {{4, 3},
+       {{0, 0.5, {4, 3}, {4, 3}, 90.0}, {0.5, 1, {4, 3}, {4, 3}, 90.0}, {1, 1, {4, 3}, {4, 3}, 450.0}}}};
+  document.plan_hash = plan_hash(document.solution);
+  document.makespan_s = makespan_s(document.solution);
+  document.flowtime_s = flowtime_s(document.solution);
+  return document;
+}
+
+TEST(IoSolution, TurnsAndRulesSurviveTheRoundTripBitByBit) {
+  const Instance instance = awkward_instance();
+  const SolutionDocument document = turning_document(instance);
+  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml}) {
+    const Input<SolutionDocument> read =
+        parse_solution(write_solution(format, instance, document), "s", instance);
+    ASSERT_TRUE(read) << read.error().message();
+    expect_equal(*read, document);
+  }
+  const std::string csv = solution_to_csv(instance, document);
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "agent,id,t0,t1,x0,y0,x1,y1,turn_to");
+  const Input<SolutionDocument> read = parse_solution(csv, "s", instance);
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->solution, document.solution);
+}
+
+TEST(IoSolution, TurnsOnTheMoveAreRefused) {
+  const Instance instance = awkward_instance();
+  EXPECT_EQ(
+      error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 0, "y0": 0, "x1": 1,
+                       "y1": 0, "turn_to": 0}]}]})",
+               instance),
+      "s: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place alone");
+  EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,1,0,90\n", instance),
+            "s:2: turn_to in a motion that changes place, expected turns in place alone");
+  EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,0,0,up\n", instance),
+            "s:2: turn_to 'up', expected a number");
+}
+
+TEST(IoSolution, ATurnIsPartOfWhatAPlanIsCalled) {
+  const Instance instance = awkward_instance();
+  Solution solution = turning_document(instance).solution;
+  const std::string before = plan_hash(solution);
+  solution.trajectories[2].motions[0].turn_to_deg = 270;
+  EXPECT_NE(plan_hash(solution), before);
+  solution.trajectories[2].motions[0].turn_to_deg.reset();
+  EXPECT_NE(plan_hash(solution), before);
+}
+
+TEST(IoSolution, SectionsHaveTheHeadingsOfThePublishedLog) {
+  Instance instance;
+  instance.map = GridMap(3, 3);
+  instance.agents = {{"0", {0, 2}, {1, 1}, 0.5, 1, 180, 90.0, 1}};
+  SolutionDocument document;
+  document.solution.trajectories = {
+      {{0, 2},
+       {{0, 0.75, {0, 2}, {0, 2}, 45.0}, {0.75, 2, {0, 2}, {1, 1}}, {2, 2.25, {1, 1}, {1, 1}, 90.0}}}};
+  const std::string text = solution_to_xml(instance, document);
+  for (
+      const char* part :
+      {R"(start.heading="180" goal.x="1" goal.y="1" goal.heading="90" size)",
+       R"(start.x="0" start.y="2" start.heading="180" goal.x="0" goal.y="2" goal.heading="45" duration="0.75")",
+       R"(start.x="0" start.y="2" start.heading="45" goal.x="1" goal.y="1" goal.heading="45" duration="1.25")",
+       R"(start.x="1" start.y="1" start.heading="45" goal.x="1" goal.y="1" goal.heading="90" duration="0.25")"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+TEST(IoSolution, TurnsOfThePublishedLogLoseTheirRounding) {
+  Instance instance;
+  instance.map = GridMap(4, 4);
+  instance.agents = {{"0", {0, 3}, {1, 0}, 0.5, 1, 180, 0.1 + 0.2, 0.2}};
+  const auto section = [](const char* from, const char* from_deg, const char* to, const char* to_deg,
+                          const char* duration) {
+    return std::string("<section ") + from + " start.heading=\"" + from_deg + "\" " + to +
+           " goal.heading=\"" + to_deg + "\" duration=\"" + duration + "\"/>";
+  };
+  const char* const start_from = "start.x=\"0\" start.y=\"3\"";
+  const char* const start_to = "goal.x=\"0\" goal.y=\"3\"";
+  const char* const goal_from = "start.x=\"1\" start.y=\"0\"";
+  const char* const goal_to = "goal.x=\"1\" goal.y=\"0\"";
+  const Input<SolutionDocument> read =
+      parse_solution("<root><log><agent id=\"0\" movespeed=\"1\"><path pathfound=\"true\">" +
+                         section(start_from, "180", start_to, "71.565048", "3.0120819") +
+                         section(start_from, "71.565048", goal_to, "71.565048", "3.1622777") +
+                         section(goal_from, "71.565048", goal_to, "0.30000001", "1.9795848") +
+                         "</path></agent></log></root>",
+                     "s", instance);
+  ASSERT_TRUE(read) << read.error().message();
+  const std::vector<TimedMotion>& motions = read->solution.trajectories[0].motions;
+  ASSERT_EQ(motions.size(), 3u);
+  const double direction_deg = std::atan(3.0) * 180 / std::acos(-1.0);
+  EXPECT_NEAR(*motions[0].turn_to_deg, direction_deg, 1e-12);
+  EXPECT_NEAR(motions[0].end_s, (180 - direction_deg) / 36, 1e-12);
+  EXPECT_FALSE(motions[1].is_turn());
+  EXPECT_EQ(motions[2].turn_to_deg, 0.1 + 0.2);
+  EXPECT_NEAR(motions[2].end_s - motions[2].begin_s, (direction_deg - (0.1 + 0.2)) / 36, 1e-12);
 }
 
 TEST(IoSolution, CsvKeepsTheTrajectories) {

@@ -74,9 +74,8 @@ TEST(IoXmlInstance, BadAgentsNameTheirLine) {
   }
   EXPECT_EQ(agent_error("<agent " + places + " movespeed=\"0\"/>"),
             "f:3: movespeed '0' in <agent>, expected a speed in cells per second, 0.001 to 1000");
-  EXPECT_EQ(
-      agent_error("<agent " + places + " rotationspeed=\"-2\"/>"),
-      "f:3: rotationspeed '-2' in <agent>, expected half turns per second, more than 0 and at most 1000");
+  EXPECT_EQ(agent_error("<agent " + places + " rotationspeed=\"-2\"/>"),
+            "f:3: rotationspeed '-2' in <agent>, expected half turns per second, 0.001 to 1000");
   EXPECT_EQ(agent_error("<agent " + places + " start.heading=\"400\"/>"),
             "f:3: start.heading '400' in <agent>, expected degrees from 0 to 360");
   EXPECT_EQ(agent_error("<agent " + places + " goal.heading=\"north\"/>"),

@@ -37,7 +37,8 @@ TEST_P(StartGuard, lets_a_robot_onto_its_goal_and_forgets_the_exception_afterwar
   const PlanResult result = plan(instance, options);
   // The second robot starts inside the disk that was kept from the first one.
   ASSERT_EQ(result.status, PlanStatus::kSolved);
-  const ValidationReport report = validate(instance, result.solution, {options.ssi_s, result.order()});
+  const ValidationReport report =
+      validate(instance, result.solution, {options.ssi_s, result.order(), options.rules});
   EXPECT_TRUE(report.valid()) << report.violations.front().message;
 }
 

@@ -1,0 +1,242 @@
+// Robots with headings, delays and inflated distances: every plan keeps the rules, the
+// validator says so from every side, and what is planted against the rules is found.
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planner/core/tolerances.hpp"
+#include "planner/grid/heading.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/search/turning_search.hpp"
+#include "planner/validator/validator.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+#include "property_tests/support/steps_between.hpp"
+#include "property_tests/support/symmetry.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Seconds. Rounding of sums of square roots and angles.
+constexpr double kRoundingS = 1e-9;
+
+struct Planned {
+  PlanCase plan_case;
+  PlanResult result;
+
+  Scene scene() const { return {plan_case.instance, result.solution}; }
+  ValidationOptions promises() const {
+    return {plan_case.options.ssi_s, result.order(), plan_case.options.rules};
+  }
+};
+
+Planned any_planned() {
+  Planned planned{*any_turning_case(), {}};
+  note_case(planned.plan_case);
+  classify_case(planned.plan_case);
+  planned.result = plan(planned.plan_case.instance, planned.plan_case.options);
+  RC_CLASSIFY(planned.result.status == PlanStatus::kSolved, "solved");
+  return planned;
+}
+
+Planned any_solved() {
+  Planned planned = any_planned();
+  RC_PRE(planned.result.status == PlanStatus::kSolved);
+  return planned;
+}
+
+/// A case of one robot that fits between two blocked cells, and nothing that moves.
+PlanCase one_turning_robot() {
+  PlanCase plan_case = *any_turning_case();
+  RC_PRE(!plan_case.instance.agents.empty());
+  plan_case.instance.agents.resize(1);
+  RC_PRE(plan_case.instance.agents[0].radius_cells <= kDefaultRadiusCells);
+  plan_case.instance.obstacles.clear();
+  note_case(plan_case);
+  return plan_case;
+}
+
+bool same(const PlanResult& a, const PlanResult& b) {
+  return a.status == b.status && a.solution == b.solution && a.tries() == b.tries() &&
+         a.statistics.expansions == b.statistics.expansions &&
+         a.statistics.generations == b.statistics.generations;
+}
+
+/// A robot that moves and turns or waits right before it.
+struct Stop {
+  AgentIndex agent;
+  std::size_t motion;  ///< the turn
+};
+
+std::optional<Stop> any_turn(const Solution& solution) {
+  std::vector<Stop> stops;
+  for (AgentIndex i = 0; i < solution.trajectories.size(); ++i) {
+    const auto& motions = solution.trajectories[i].motions;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      if (motions[k].is_turn()) stops.push_back({i, k});
+    }
+  }
+  if (stops.empty()) return std::nullopt;
+  return *rc::gen::elementOf(stops);
+}
+
+/// Everything of the trajectory from motion `first` on happens `seconds` earlier.
+void hasten(Trajectory& trajectory, std::size_t first, double seconds) {
+  for (std::size_t i = first; i < trajectory.motions.size(); ++i) {
+    trajectory.motions[i].begin_s -= seconds;
+    trajectory.motions[i].end_s -= seconds;
+  }
+}
+
+bool finds(const ValidationReport& report, AgentIndex agent, ViolationKind kind) {
+  return std::any_of(report.violations.begin(), report.violations.end(), [&](const Violation& violation) {
+    return violation.agent == agent && violation.kind == kind;
+  });
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("every plan of robots with headings, delays and inflation is valid", [] {
+    const Planned planned = any_planned();
+    RC_PRE(planned.result.status == PlanStatus::kSolved);
+    const ValidationReport report =
+        validate(planned.plan_case.instance, planned.result.solution, planned.promises());
+    for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
+    RC_ASSERT(report.valid());
+    RC_CLASSIFY(has_turns(planned.result.solution), "turns on the way");
+  });
+
+  passed &= property("turns are stated, each as long as its angle takes", [] {
+    const Planned planned = any_solved();
+    for (AgentIndex i = 0; i < planned.plan_case.instance.agents.size(); ++i) {
+      const Agent& agent = planned.plan_case.instance.agents[i];
+      double facing_deg = agent.start_heading_deg;
+      for (const TimedMotion& motion : planned.result.solution.trajectories[i].motions) {
+        if (!motion.is_wait()) {
+          RC_ASSERT(facing_deg == heading_deg(motion.from, motion.to));
+        } else if (motion.is_turn()) {
+          const double due_s = turn_deg(facing_deg, *motion.turn_to_deg) / (180 * agent.rotation_speed);
+          RC_ASSERT(std::abs(motion.end_s - motion.begin_s - due_s) <=
+                    kRoundingS * std::max(1.0, motion.end_s));
+          facing_deg = *motion.turn_to_deg;
+        }
+      }
+      RC_ASSERT(facing_deg == agent.goal_heading_deg.value_or(facing_deg));
+    }
+  });
+
+  passed &= property("the same case gives the same plan, and the final order alone explains it", [] {
+    const Planned planned = any_planned();
+    const PlanCase& plan_case = planned.plan_case;
+    RC_ASSERT(same(planned.result, plan(plan_case.instance, plan_case.options)));
+    RC_PRE(planned.result.status == PlanStatus::kSolved);
+    const PriorityOrder& order = planned.result.order();
+    PlanCase sorted = plan_case;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      sorted.instance.agents[i] = plan_case.instance.agents[order[i]];
+    sorted.options.order = InitialOrder::kFifo;
+    sorted.options.rescheduling = Rescheduling::kNone;
+    const PlanResult replayed = plan(sorted.instance, sorted.options);
+    RC_ASSERT(replayed.status == PlanStatus::kSolved);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      RC_ASSERT(replayed.solution.trajectories[i] == planned.result.solution.trajectories[order[i]]);
+    }
+  });
+
+  passed &= property("the verdict stays after a quarter turn, in a mirror, and at half the speed", [] {
+    const Planned planned = any_solved();
+    ValidationOptions promises = planned.promises();
+    const auto is_valid = [&](const Scene& scene) {
+      return validate(scene.instance, scene.solution, promises).valid();
+    };
+    RC_ASSERT(is_valid(rotated(planned.scene())));
+    RC_ASSERT(is_valid(reflected(planned.scene())));
+    promises.ssi_s *= 2;
+    promises.rules.wait_before_move_s *= 2;
+    promises.rules.inflate_time_s *= 2;
+    RC_ASSERT(is_valid(slowed(planned.scene(), 2)));
+  });
+
+  passed &= property("one robot alone: solved exactly when breadth-first search reaches the goal", [] {
+    const PlanCase plan_case = one_turning_robot();
+    const Agent& agent = plan_case.instance.agents[0];
+    const PlanResult result = plan(plan_case.instance, plan_case.options);
+    RC_PRE(result.status != PlanStatus::kLimit);
+    const auto steps = steps_between(plan_case.instance.map, agent.start, agent.goal);
+    RC_ASSERT((result.status == PlanStatus::kSolved) == steps.has_value());
+    if (!steps) return;
+    const double arrival_s = result.solution.trajectories[0].arrival_s();
+    const double half_turn_s = 1 / agent.rotation_speed;
+    const double delay_s = plan_case.options.rules.wait_before_move_s;
+    RC_ASSERT(arrival_s >= distance(agent.start, agent.goal) / agent.speed_cells_per_s - kRoundingS);
+    // A quarter turn before each step at most, half a turn at both ends.
+    RC_ASSERT(arrival_s <=
+              *steps * (1 / agent.speed_cells_per_s + half_turn_s + delay_s) + 2 * half_turn_s + kRoundingS);
+  });
+
+  passed &= property("one robot alone, stepwise: who turns twice as fast arrives no later", [] {
+    PlanCase plan_case = one_turning_robot();
+    plan_case.options.any_angle = false;
+    const PlanResult slow = plan(plan_case.instance, plan_case.options);
+    RC_PRE(slow.status == PlanStatus::kSolved);
+    plan_case.instance.agents[0].rotation_speed *= 2;
+    const PlanResult fast = plan(plan_case.instance, plan_case.options);
+    RC_ASSERT(fast.status == PlanStatus::kSolved);
+    RC_ASSERT(makespan_s(fast.solution) <= makespan_s(slow.solution) + kRoundingS);
+  });
+
+  passed &= property("without rules, stepwise, the two searches arrive at the same times", [] {
+    PlanCase plan_case = *any_case();
+    plan_case.options.any_angle = false;
+    plan_case.options.rescheduling = Rescheduling::kNone;
+    plan_case.instance.agents.resize(std::min<std::size_t>(plan_case.instance.agents.size(), 1));
+    note_case(plan_case);
+    TurningSearch turning(plan_case.instance, {false, plan_case.options.connectedness, {}});
+    const PlanResult one = plan(plan_case.instance, plan_case.options);
+    const PlanResult other = plan_prioritized(plan_case.instance, plan_case.options, turning);
+    RC_PRE(one.status != PlanStatus::kLimit && other.status != PlanStatus::kLimit);
+    RC_ASSERT(one.status == other.status);
+    RC_ASSERT(std::abs(makespan_s(one.solution) - makespan_s(other.solution)) <= kRoundingS);
+  });
+
+  passed &= property("the validator finds a turn that is too short, left out, or the wrong way", [] {
+    const Planned planned = any_solved();
+    const std::optional<Stop> stop = any_turn(planned.result.solution);
+    RC_PRE(stop.has_value());
+    Scene scene = planned.scene();
+    Trajectory& trajectory = scene.solution.trajectories[stop->agent];
+    TimedMotion& turn = trajectory.motions[stop->motion];
+    const double duration_s = turn.end_s - turn.begin_s;
+    RC_PRE(duration_s > 1e-3);
+    ViolationKind expected = ViolationKind::kStandingTime;
+    switch (*rc::gen::inRange(0, 3)) {
+      case 0:
+        turn.end_s -= duration_s / 4;
+        hasten(trajectory, stop->motion + 1, duration_s / 4);
+        break;
+      case 1:
+        // Where nothing else fills the time.
+        RC_PRE(planned.plan_case.options.rules.wait_before_move_s == 0);
+        hasten(trajectory, stop->motion + 1, duration_s);
+        trajectory.motions.erase(trajectory.motions.begin() + static_cast<std::ptrdiff_t>(stop->motion));
+        if (stop->motion < trajectory.motions.size()) RC_PRE(!trajectory.motions[stop->motion].is_wait());
+        break;
+      default:
+        turn.turn_to_deg = std::fmod(*turn.turn_to_deg + 7.5, 360);
+        expected = ViolationKind::kHeading;
+        break;
+    }
+    RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.promises()), stop->agent, expected));
+  });
+
+  return passed ? 0 : 1;
+}
