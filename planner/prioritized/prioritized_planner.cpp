@@ -68,6 +68,7 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
 
   ReservationTable reservations(instance.map, largest_radius_cells(instance));
   PlanResult result;
+  result.ssi_s = options.ssi_s;
   while (true) {
     Solution solution;
     solution.trajectories.resize(instance.agents.size());
@@ -101,6 +102,38 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   SippSearch search(instance, {options.any_angle, options.connectedness});
   PlanResult result = plan_prioritized(instance, options, search);
   result.planning_seconds = seconds_since(begin);
+  return result;
+}
+
+PlannerOptions left_of(const PlannerOptions& options, const PlanResult& done) {
+  PlannerOptions left = options;
+  left.time_limit_s = options.time_limit_s - done.planning_seconds;
+  left.max_expansions = options.max_expansions - done.statistics.expansions;
+  left.max_restarts = options.max_restarts - done.tries();
+  return left;
+}
+
+void prepend(const PlanResult& before, PlanResult& result) {
+  result.trace.insert(result.trace.begin(), before.trace.begin(), before.trace.end());
+  result.statistics += before.statistics;
+  result.planning_seconds += before.planning_seconds;
+}
+
+PlanResult plan_escalating(const Instance& instance, const PlannerOptions& options,
+                           const std::vector<double>& longer_s) {
+  PlanResult result = plan(instance, options);
+  for (const double ssi_s : longer_s) {
+    if (result.status != PlanStatus::kFailed) break;
+    PlannerOptions left = left_of(options, result);
+    if (result.tries() > options.max_restarts || !(left.time_limit_s > 0)) {
+      result.status = PlanStatus::kLimit;
+      break;
+    }
+    left.ssi_s = ssi_s;
+    PlanResult next = plan(instance, left);
+    prepend(result, next);
+    result = std::move(next);
+  }
   return result;
 }
 

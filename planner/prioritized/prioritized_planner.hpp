@@ -38,6 +38,7 @@ struct PlanResult {
   /// Every try in turn; the last one has the final order.
   std::vector<Try> trace;
   SearchStatistics statistics;  ///< over all tries
+  double ssi_s = 0;             ///< start-safe interval of the last try
   double planning_seconds = 0;  ///< wall clock, planning alone
 
   std::size_t tries() const { return trace.size(); }
@@ -53,5 +54,17 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
 /// The same with the planner that the options name: AA-SIPP, or SIPP where
 /// any_angle is false.
 PlanResult plan(const Instance& instance, const PlannerOptions& options);
+
+/// The options of a run that goes on after others: with what is left of their limits.
+/// REQUIRES: done.tries() <= options.max_restarts.
+PlannerOptions left_of(const PlannerOptions& options, const PlanResult& done);
+
+/// Adds the tries and the work of `before` to a result that came after it.
+void prepend(const PlanResult& before, PlanResult& result);
+
+/// Escalation: where the method fails with options.ssi_s, it is run again with each of
+/// `longer_s` in turn. Tries and work are those of all runs, and so are the limits.
+PlanResult plan_escalating(const Instance& instance, const PlannerOptions& options,
+                           const std::vector<double>& longer_s);
 
 }  // namespace sipplab
