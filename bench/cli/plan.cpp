@@ -6,15 +6,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/sweep/interrupt.hpp"
+#include "bench/sweep/refined_plan.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab::cli {
@@ -23,11 +26,21 @@ namespace {
 struct PlanArguments {
   InstanceFlags instance;
   PlannerFlags planner;
+  ImproveFlags improve;
+  bool best = false;
   std::optional<std::string> format;
   std::optional<std::string> output;
   PictureFlags picture;
   bool json = false;
 };
+
+/// Seconds that --best takes unless --time-limit says otherwise.
+constexpr double kBestTimeLimitS = 30;
+
+/// Lines of the curve that the summary prints at most; JSON has all of them.
+constexpr std::size_t kCurveLines = 12;
+
+using bench::RefinedPlan;
 
 /// What -o means without --format: the file's extension, else XML.
 SolutionFormat output_format(const PlanArguments& arguments) {
@@ -36,29 +49,80 @@ SolutionFormat output_format(const PlanArguments& arguments) {
   return parse_solution_format(path.substr(path.find_last_of('.') + 1)).value_or(SolutionFormat::kXml);
 }
 
-SolutionDocument document_of(const PlanResult& result, const PlannerOptions& options) {
+SolutionDocument document_of(const RefinedPlan& outcome, const PlannerOptions& options) {
+  const PlanResult& result = outcome.plan;
   SolutionDocument document;
   document.status = std::string(name(result.status));
-  if (!result.trace.empty()) document.order = result.order();
+  if (!result.trace.empty()) document.order = outcome.order();
   document.tries = result.tries();
-  document.expansions = result.statistics.expansions;
-  document.generations = result.statistics.generations;
-  document.planning_seconds = result.planning_seconds;
+  document.expansions = outcome.statistics().expansions;
+  document.generations = outcome.statistics().generations;
+  document.planning_seconds = outcome.seconds();
   document.options = options;
   document.made_by = std::string(name(result.made_by));
+  document.options->ssi_s = result.ssi_s;
+  for (const Try& pass : result.trace) {
+    if (!pass.ejected.empty()) document.ejections.push_back({*pass.failed, pass.ejected});
+  }
   if (result.status != PlanStatus::kSolved) return document;
+  if (outcome.improvement) document.improvement = outcome.improvement->log;
   document.valid = true;
-  document.solution = result.solution;
-  document.makespan_s = makespan_s(result.solution);
-  document.flowtime_s = flowtime_s(result.solution);
-  document.plan_hash = plan_hash(result.solution);
-  document.ssi_kept_s = result.ssi_kept_s;
+  document.solution = outcome.solution();
+  document.makespan_s = makespan_s(document.solution);
+  document.flowtime_s = flowtime_s(document.solution);
+  document.plan_hash = plan_hash(document.solution);
+  document.ssi_kept_s = outcome.ssi_kept_s();
   return document;
 }
 
-std::string summary(const SolutionDocument& document, std::size_t robots) {
+std::string steps_text(const std::vector<BestStep>& steps) {
+  std::string text;
+  for (const BestStep& step : steps) {
+    text += fmt::format("step        {}, ssi {}: {} after {} tries, {:.3f} s\n", name(step.kind),
+                        format_ssi(step.ssi_s), name(step.status), step.tries, step.seconds);
+  }
+  return text;
+}
+
+std::string ejections_text(const std::vector<EjectionRecord>& ejections, const Instance& instance) {
+  std::string text;
+  for (const EjectionRecord& record : ejections) {
+    text += fmt::format("ejected     by {}:", instance.agents[record.failed].id);
+    for (const AgentIndex robot : record.ejected) text += " " + instance.agents[robot].id;
+    text += "\n";
+  }
+  return text;
+}
+
+std::string gap_text(std::string_view what, double cost_s, double bound_s) {
+  constexpr double kPercent = 100;
+  return fmt::format("lower bound {:.3f} s {}, gap {:.1f} %\n", bound_s, what,
+                     kPercent * gap(cost_s, bound_s));
+}
+
+std::string improvement_text(const ImprovementLog& log, double ssi_s) {
+  const std::vector<ProgressPoint>& curve = log.curve;
+  std::string text = fmt::format("improved    {} times in {} iterations, for {}\n", log.improvements,
+                                 log.iterations, format_objective(log.objective));
+  text += gap_text("flowtime", curve.back().cost.flowtime_s, log.bound.flowtime_s);
+  text += gap_text("makespan", curve.back().cost.makespan_s, log.bound.makespan_s);
+  text += log.keeps_promise
+              ? fmt::format("promise     start-safe interval {} s, in the final order\n", format_ssi(ssi_s))
+              : "promise     no collisions; start-safe intervals in no order\n";
+  text += "curve       seconds  iteration    flowtime    makespan\n";
+  const std::size_t stride = (curve.size() + kCurveLines - 2) / (kCurveLines - 1);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (i % stride != 0 && i + 1 < curve.size()) continue;
+    const ProgressPoint& point = curve[i];
+    text += fmt::format("            {:7.3f} {:10} {:11.3f} {:11.3f}\n", point.seconds, point.iteration,
+                        point.cost.flowtime_s, point.cost.makespan_s);
+  }
+  return text;
+}
+
+std::string summary(const SolutionDocument& document, const RefinedPlan& outcome, const Instance& instance) {
   std::string text = fmt::format("status      {}{}\nrobots      {}\n", document.status,
-                                 document.valid ? ", valid" : "", robots);
+                                 document.valid ? ", valid" : "", instance.agents.size());
   if (document.makespan_s) text += fmt::format("makespan    {:.3f} s\n", *document.makespan_s);
   if (document.flowtime_s) text += fmt::format("flowtime    {:.3f} s\n", *document.flowtime_s);
   if (document.made_by == name(Method::kComplete)) {
@@ -68,8 +132,11 @@ std::string summary(const SolutionDocument& document, std::size_t robots) {
                           format_ssi(document.options->ssi_s));
     }
   }
-  return text + fmt::format("tries       {}\nexpansions  {}\nplanning    {:.3f} s\n", document.tries,
-                            document.expansions, document.planning_seconds);
+  text += fmt::format("tries       {}\nexpansions  {}\nplanning    {:.3f} s\n", document.tries,
+                      document.expansions, document.planning_seconds);
+  text += steps_text(outcome.steps) + ejections_text(document.ejections, instance);
+  if (document.improvement) text += improvement_text(*document.improvement, outcome.plan.ssi_s);
+  return text;
 }
 
 std::optional<std::string> draw(const PlanArguments& arguments, const Instance& instance,
@@ -86,12 +153,12 @@ std::optional<std::string> draw(const PlanArguments& arguments, const Instance& 
 
 /// A plan that breaks a promise is an error of ours: it is drawn where a picture was
 /// asked for, and written nowhere.
-int report_invalid(const PlanArguments& arguments, const Instance& instance, const PlanResult& result,
+int report_invalid(const PlanArguments& arguments, const Instance& instance, const RefinedPlan& outcome,
                    const ValidationReport& report, const PlannerOptions& options) {
-  draw(arguments, instance, result.solution, report, "invalid plan");
+  draw(arguments, instance, outcome.solution(), report, "invalid plan");
   if (arguments.json) {
-    PlanResult rejected = result;
-    rejected.status = PlanStatus::kFailed;
+    RefinedPlan rejected = outcome;
+    rejected.plan.status = PlanStatus::kFailed;
     print(solution_to_json(instance, document_of(rejected, options)));
   }
   return fail(kInternalError,
@@ -107,14 +174,21 @@ int run_plan(const PlanArguments& arguments) {
   arguments.planner.apply_to(options);
   if (const auto line = beyond_complete(instance, options)) return fail(kBadUsage, "sipplab: " + *line);
 
-  const PlanResult result = plan(instance, options);
-  if (result.status == PlanStatus::kSolved) {
-    const ValidationReport report =
-        validate(instance, result.solution, {result.ssi_kept_s, result.order(), options.rules});
-    if (!report.valid()) return report_invalid(arguments, instance, result, report, options);
+  if (arguments.best || arguments.improve.budget) {
+    bench::catch_interrupts("\nsipplab: ending with the best plan so far; once more to end at once\n");
+    options.stop = &bench::interrupt_flag();
+  }
+  if (arguments.best && !arguments.planner.has_time_limit()) options.time_limit_s = kBestTimeLimitS;
+  bench::Refinement refinement = arguments.improve.refinement(arguments.best);
+  refinement.longer_ssi_s = arguments.planner.longer_ssi_s();
+  const RefinedPlan outcome = bench::plan_refined(instance, options, refinement);
+  const bool is_solved = outcome.plan.status == PlanStatus::kSolved;
+  if (is_solved) {
+    const ValidationReport report = validate(instance, outcome.solution(), outcome.promises(options.rules));
+    if (!report.valid()) return report_invalid(arguments, instance, outcome, report, options);
   }
 
-  const SolutionDocument document = document_of(result, options);
+  const SolutionDocument document = document_of(outcome, options);
   if (arguments.output) {
     const std::string text = write_solution(output_format(arguments), instance, document);
     if (const auto error = write_file(*arguments.output, text)) return fail(kBadUsage, error->message());
@@ -131,9 +205,9 @@ int run_plan(const PlanArguments& arguments) {
   } else if (arguments.format && !arguments.output) {
     print(write_solution(output_format(arguments), instance, document));
   } else {
-    print(summary(document, instance.agents.size()));
+    print(summary(document, outcome, instance));
   }
-  return result.status == PlanStatus::kSolved ? kSuccess : kNegativeVerdict;
+  return is_solved ? kSuccess : kNegativeVerdict;
 }
 
 }  // namespace
@@ -143,6 +217,11 @@ Command add_plan_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plan", "plan one instance; exit code 1 where it is not solved");
   arguments->instance.add_to(*command);
   arguments->planner.add_to(*command);
+  arguments->improve.add_to(*command);
+  command->add_flag(
+      "--best", arguments->best,
+      "the best plan in 30 s or --time-limit: the method, longer start-safe intervals, ejection, "
+      "then improvement");
   command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");

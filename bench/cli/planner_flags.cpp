@@ -43,6 +43,16 @@ std::string check_order(const std::string& text) {
   return parse_initial_order(text) ? "" : expected(text, kOrderNames);
 }
 
+std::string check_objective(const std::string& text) {
+  return parse_objective(text) ? "" : expected(text, "flowtime, makespan, or two weights such as 1:20");
+}
+
+std::string check_improve(const std::string& text) {
+  return parse_improve_budget(text)
+             ? ""
+             : expected(text, "seconds > 0, such as 30s, or iterations > 0, such as 500i");
+}
+
 std::string check_shard(const std::string& text) {
   return bench::parse_shard(text) ? std::string()
                                   : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
@@ -105,9 +115,13 @@ void MotionFlags::apply_to(MotionRules& rules) const {
 }
 
 void PlannerFlags::add_to(CLI::App& command) {
-  command.add_option("--ssi", ssi_, "start-safe interval in seconds, or inf")
+  command
+      .add_option("--ssi", ssi_,
+                  "start-safe interval in seconds, or inf; of several, 5,9,15, each is tried when the one "
+                  "before it fails")
+      ->delimiter(',')
       ->check(check_ssi)
-      ->type_name("K");
+      ->type_name("K,...");
   command.add_option("--reschedule", reschedule_, kRescheduleNames)
       ->check(check_reschedule)
       ->type_name("RULE");
@@ -129,7 +143,7 @@ void PlannerFlags::add_to(CLI::App& command) {
 }
 
 void PlannerFlags::apply_to(PlannerOptions& options) const {
-  if (ssi_) options.ssi_s = parse_ssi(*ssi_).value_or(options.ssi_s);
+  if (!ssi_.empty()) options.ssi_s = parse_ssi(ssi_.front()).value_or(options.ssi_s);
   if (reschedule_) options.rescheduling = parse_rescheduling(*reschedule_).value_or(options.rescheduling);
   if (order_) options.order = parse_initial_order(*order_).value_or(options.order);
   if (connectedness_) options.connectedness = *connectedness_;
@@ -149,6 +163,33 @@ std::optional<std::string> beyond_complete(const Instance& instance, const Plann
   const std::optional<InstanceError> error = find_beyond_complete(instance);
   if (!error) return std::nullopt;
   return error->what + ", expected " + error->expected;
+}
+
+std::vector<double> PlannerFlags::longer_ssi_s() const {
+  std::vector<double> longer_s;
+  for (std::size_t i = 1; i < ssi_.size(); ++i) longer_s.push_back(parse_ssi(ssi_[i]).value_or(0));
+  return longer_s;
+}
+
+void ImproveFlags::add_to(CLI::App& command) {
+  command
+      .add_option("--improve", budget, "improve the plan for so many seconds (30, 30s) or iterations (500i)")
+      ->check(check_improve)
+      ->type_name("SECONDS|ITERATIONSi");
+  command
+      .add_option("--objective", objective,
+                  "what improvement minimises: flowtime, makespan, or weights of both, such as 1:20")
+      ->check(check_objective)
+      ->capture_default_str()
+      ->type_name("WHAT");
+}
+
+bench::Refinement ImproveFlags::refinement(bool best) const {
+  bench::Refinement refinement;
+  refinement.best = best;
+  if (budget) refinement.improve = parse_improve_budget(*budget);
+  refinement.objective = parse_objective(objective).value_or(Objective{});
+  return refinement;
 }
 
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {

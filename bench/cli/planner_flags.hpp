@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/sweep/refined_plan.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/prioritized/options.hpp"
 
@@ -41,18 +42,21 @@ class MotionFlags {
   std::optional<double> inflate_time_s_;
 };
 
-/// --ssi, --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
+/// --ssi (a list), --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
 /// --max-expansions, --max-restarts, --method, --fallback, and those of MotionFlags: each empty
 /// unless the user gave it.
 class PlannerFlags {
  public:
   void add_to(CLI::App& command);
 
-  /// Overwrites the options that the user gave.
+  /// Overwrites the options that the user gave; of several start-safe intervals the first.
   void apply_to(PlannerOptions& options) const;
+  /// The intervals after the first: those to try in turn where it fails.
+  std::vector<double> longer_ssi_s() const;
+  bool has_time_limit() const { return time_limit_.has_value(); }
 
  private:
-  std::optional<std::string> ssi_;
+  std::vector<std::string> ssi_;
   std::optional<std::string> reschedule_;
   std::optional<std::string> order_;
   std::optional<int> connectedness_;
@@ -80,11 +84,23 @@ std::string check_order(const std::string& text);
 /// A number of seconds > 0, or "inf".
 std::string check_time_limit(const std::string& text);
 std::string check_positive_real(const std::string& text);
+std::string check_objective(const std::string& text);
+/// "30", "30s": seconds > 0; "500i": iterations > 0.
+std::string check_improve(const std::string& text);
 /// "2/8".
 std::string check_shard(const std::string& text);
 
 /// REQUIRES: check_time_limit(text) is empty.
 double parse_time_limit_s(std::string_view text);
+
+/// --improve and --objective.
+struct ImproveFlags {
+  std::optional<std::string> budget;
+  std::string objective = "flowtime";
+
+  void add_to(CLI::App& command);
+  bench::Refinement refinement(bool best) const;
+};
 
 /// --any-angle and --no-any-angle; empty unless the user gave one of them.
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);

@@ -3,23 +3,25 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <string_view>
-
 namespace sipplab::bench {
 namespace {
 
 volatile sig_atomic_t caught = 0;
+std::atomic<bool> was_caught{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler may not set it
+std::string_view said;
 
 void remember(int signal_number) {
   caught = signal_number;
-  constexpr std::string_view kLine = "\nsipplab: ending after this instance; once more to end at once\n";
+  was_caught = true;
   // Nothing can be done here about a stderr that is closed.
-  if (write(STDERR_FILENO, kLine.data(), kLine.size()) < 0) return;
+  if (write(STDERR_FILENO, said.data(), said.size()) < 0) return;
 }
 
 }  // namespace
 
-void catch_interrupts() {
+void catch_interrupts(std::string_view line) {
+  said = line;
   struct sigaction action = {};
   action.sa_handler = remember;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second signal has its default effect
@@ -29,5 +31,7 @@ void catch_interrupts() {
 }
 
 int interrupted_by() { return static_cast<int>(caught); }
+
+const std::atomic<bool>& interrupt_flag() { return was_caught; }
 
 }  // namespace sipplab::bench

@@ -31,6 +31,7 @@ class LargeNeighbourhoodSearch {
       : instance_(instance), options_(options), random_(options.seed), begin_(Clock::now()) {
     limits_.deadline = deadline_after(begin_, options.time_limit_s);
     limits_.stop = options.stop;
+    result_.log.objective = options.objective;
     fill(given, order, options.ssi_s, planner);
     if (!plan_->order()) fill(given, order, 0, planner);
     cost_ = cost_of_plan();
@@ -39,19 +40,20 @@ class LargeNeighbourhoodSearch {
   }
 
   ImproveResult run() {
-    while (result_.iterations < options_.max_iterations && !instance_.agents.empty() && !is_optimal() &&
-           !limits_.is_over()) {
+    while (result_.log.iterations < options_.max_iterations && !instance_.agents.empty() && !is_optimal()) {
+      result_.log.was_cut_short = limits_.is_over();
+      if (result_.log.was_cut_short) break;
       iterate();
     }
     note_progress();
     result_.solution = plan_->solution();
-    if (keeps_promise_) result_.order = plan_->order();
+    if (result_.log.keeps_promise) result_.order = plan_->order();
     return std::move(result_);
   }
 
  private:
   void fill(const Solution& given, const PriorityOrder& order, double ssi_s, SingleAgentPlanner& planner) {
-    keeps_promise_ = ssi_s == options_.ssi_s;
+    result_.log.keeps_promise = ssi_s == options_.ssi_s;
     plan_ = std::make_unique<PartialPlan>(instance_, ssi_s, planner);
     for (const AgentIndex agent : order) plan_->insert(agent, given.trajectories[agent]);
   }
@@ -66,7 +68,7 @@ class LargeNeighbourhoodSearch {
       solo_cells.push_back(length_cells(fastest_ways_.back()));
     }
     static_times_s_ = static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells);
-    result_.bound = lower_bound(static_times_s_);
+    result_.log.bound = lower_bound(static_times_s_);
   }
 
   PlanCost cost_of_plan() const {
@@ -80,13 +82,16 @@ class LargeNeighbourhoodSearch {
   }
 
   bool is_optimal() const {
-    return cost_.flowtime_s <= result_.bound.flowtime_s && cost_.makespan_s <= result_.bound.makespan_s;
+    return cost_.flowtime_s <= result_.log.bound.flowtime_s &&
+           cost_.makespan_s <= result_.log.bound.makespan_s;
   }
 
-  void note_progress() { result_.curve.push_back({seconds_since(begin_), result_.iterations, cost_}); }
+  void note_progress() {
+    result_.log.curve.push_back({seconds_since(begin_), result_.log.iterations, cost_});
+  }
 
   void iterate() {
-    ++result_.iterations;
+    ++result_.log.iterations;
     const RemovalRule rule = roulette_.draw(random_);
     const std::size_t most = kFewestRemoved + random_.below(kMostRemoved - kFewestRemoved + 1);
     std::vector<AgentIndex> robots =
@@ -100,7 +105,7 @@ class LargeNeighbourhoodSearch {
     const auto work = static_cast<double>(result_.statistics.expansions - expansions_before + 1);
     roulette_.learn(rule, gain / work);
     if (!better) return;
-    ++result_.improvements;
+    ++result_.log.improvements;
     note_progress();
   }
 
@@ -116,7 +121,7 @@ class LargeNeighbourhoodSearch {
       Expected<Trajectory, PlanFailure> found = plan_->find(robots[planned], limits, result_.statistics);
       if (!found) {
         // An iteration that a limit cut short never was: what counts is how many there were.
-        if (found.error() != PlanFailure::kNoPath) --result_.iterations;
+        if (found.error() != PlanFailure::kNoPath) --result_.log.iterations;
         break;
       }
       plan_->insert(robots[planned], std::move(*found));
@@ -170,7 +175,6 @@ class LargeNeighbourhoodSearch {
   Clock::time_point begin_;
   SearchLimits limits_;
   std::unique_ptr<PartialPlan> plan_;
-  bool keeps_promise_ = true;
   std::vector<Trajectory> fastest_ways_;  ///< by robot
   std::vector<double> static_times_s_;    ///< by robot
   RuleRoulette roulette_;
@@ -179,6 +183,16 @@ class LargeNeighbourhoodSearch {
 };
 
 }  // namespace
+
+ImproveOptions improve_options(const PlannerOptions& planner, const PlanResult& plan) {
+  ImproveOptions options;
+  options.ssi_s = plan.ssi_s;
+  options.any_angle = planner.any_angle;
+  options.connectedness = planner.connectedness;
+  options.seed = planner.seed;
+  options.stop = planner.stop;
+  return options;
+}
 
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const ImproveOptions& options, SingleAgentPlanner& planner) {

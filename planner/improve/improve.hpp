@@ -29,6 +29,9 @@ struct ImproveOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Those of a plan that was made with `planner`: its kind of search, its promise, its seed.
+ImproveOptions improve_options(const PlannerOptions& planner, const PlanResult& plan);
+
 /// A point of the curve: the plan's cost from then on.
 struct ProgressPoint {
   double seconds = 0;  ///< wall clock since improvement began
@@ -36,16 +39,25 @@ struct ProgressPoint {
   PlanCost cost;
 };
 
-struct ImproveResult {
-  Solution solution;
-  /// A final order that keeps the promise of start-safe intervals; none where the given plan
-  /// kept it in no order: then the result promises freedom from collisions alone.
-  std::optional<PriorityOrder> order;
+/// How an improvement went.
+struct ImprovementLog {
+  Objective objective;
   /// The given plan first, then each better one, and the end.
   std::vector<ProgressPoint> curve;
   LowerBound bound;
   std::uint64_t iterations = 0;
   std::uint64_t improvements = 0;
+  bool was_cut_short = false;  ///< by the clock or by somebody who asked to end
+  /// Whether the promise of start-safe intervals is kept.
+  bool keeps_promise = true;
+};
+
+struct ImproveResult {
+  Solution solution;
+  /// A final order that keeps the promise of start-safe intervals; none where the given plan
+  /// kept it in no order: then the result promises freedom from collisions alone.
+  std::optional<PriorityOrder> order;
+  ImprovementLog log;
   SearchStatistics statistics;
 };
 

@@ -130,6 +130,8 @@ std::vector<double> static_times_s(const Instance& instance, bool any_angle, int
   return times_s;
 }
 
+double gap(double cost_s, double bound_s) { return cost_s > bound_s ? (cost_s - bound_s) / cost_s : 0.0; }
+
 LowerBound lower_bound(const std::vector<double>& static_times_s) {
   LowerBound bound;
   for (const double time_s : static_times_s) {

@@ -35,6 +35,10 @@ inline constexpr std::size_t kMostStaticWork = 1'000'000;
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
                                    const std::vector<double>& solo_cells);
 
+/// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 where
+/// there is no cost.
+double gap(double cost_s, double bound_s);
+
 LowerBound lower_bound(const std::vector<double>& static_times_s);
 
 }  // namespace sipplab

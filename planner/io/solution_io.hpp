@@ -8,12 +8,19 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/improve/improve.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/io/input_error.hpp"
 #include "planner/prioritized/options.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
+
+/// A robot found no way, and these made room for it.
+struct EjectionRecord {
+  AgentIndex failed = 0;
+  std::vector<AgentIndex> ejected;
+};
 
 /// A solution and what is told about it. What is empty is written as null in JSON
 /// and left out elsewhere.
@@ -37,6 +44,9 @@ struct SolutionDocument {
   /// "inflate_distance", "inflate_time" where they are not as by default) and XML; limits and
   /// methods are not.
   std::optional<PlannerOptions> options;
+  /// Told by JSON, where there is something to tell, and not read back.
+  std::vector<EjectionRecord> ejections;
+  std::optional<ImprovementLog> improvement;
 };
 
 enum class SolutionFormat { kXml, kJson, kCsv };

@@ -108,6 +108,60 @@ void append_options(std::string& out, const PlannerOptions& options) {
   append_margin("inflate_time", rules.inflate_time_s);
 }
 
+void append_indices(std::string& out, const std::vector<AgentIndex>& agents) {
+  out += '[';
+  for (std::size_t i = 0; i < agents.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(agents[i]);
+  out += ']';
+}
+
+void append_ejections(std::string& out, const std::vector<EjectionRecord>& ejections) {
+  out += ",\n  \"ejections\": [";
+  bool first = true;
+  for (const EjectionRecord& record : ejections) {
+    out += first ? "\n    " : ",\n    ";
+    first = false;
+    out += "{\"failed\": " + std::to_string(record.failed) + ", \"ejected\": ";
+    append_indices(out, record.ejected);
+    out += '}';
+  }
+  out += "\n  ]";
+}
+
+void append_costs(std::string& out, double flowtime, double makespan) {
+  out += "{\"flowtime\": ";
+  append_number(out, flowtime);
+  out += ", \"makespan\": ";
+  append_number(out, makespan);
+  out += '}';
+}
+
+void append_improvement(std::string& out, const ImprovementLog& log) {
+  out += ",\n  \"improvement\": {\"objective\": ";
+  append_string(out, format_objective(log.objective));
+  out += ", \"iterations\": " + std::to_string(log.iterations);
+  out += ", \"improvements\": " + std::to_string(log.improvements);
+  out += std::string(", \"ssi_promise\": ") + (log.keeps_promise ? "true" : "false");
+  out += ", \"lower_bound\": ";
+  append_costs(out, log.bound.flowtime_s, log.bound.makespan_s);
+  const PlanCost& last = log.curve.back().cost;
+  out += ", \"gap\": ";
+  append_costs(out, gap(last.flowtime_s, log.bound.flowtime_s), gap(last.makespan_s, log.bound.makespan_s));
+  out += ", \"curve\": [";
+  bool first = true;
+  for (const ProgressPoint& point : log.curve) {
+    out += first ? "\n    " : ",\n    ";
+    first = false;
+    out += "{\"seconds\": ";
+    append_number(out, point.seconds);
+    out += ", \"iteration\": " + std::to_string(point.iteration) + ", \"flowtime\": ";
+    append_number(out, point.cost.flowtime_s);
+    out += ", \"makespan\": ";
+    append_number(out, point.cost.makespan_s);
+    out += '}';
+  }
+  out += "\n  ]}";
+}
+
 }  // namespace
 
 std::string solution_to_json(const Instance& instance, const SolutionDocument& document) {
@@ -132,11 +186,9 @@ std::string solution_to_json(const Instance& instance, const SolutionDocument& d
   } else {
     append_string(out, document.plan_hash);
   }
-  out += ",\n  \"order\": [";
-  for (std::size_t i = 0; i < document.order.size(); ++i) {
-    out += (i > 0 ? ", " : "") + std::to_string(document.order[i]);
-  }
-  out += "],\n  \"trajectories\": [";
+  out += ",\n  \"order\": ";
+  append_indices(out, document.order);
+  out += ",\n  \"trajectories\": [";
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
     out += i > 0 ? ",\n    " : "\n    ";
     append_trajectory(out, instance.agents[i], trajectories[i]);
@@ -151,6 +203,8 @@ std::string solution_to_json(const Instance& instance, const SolutionDocument& d
     out += ",\n  \"ssi_kept\": ";
     append_ssi(out, *document.ssi_kept_s);
   }
+  if (!document.ejections.empty()) append_ejections(out, document.ejections);
+  if (document.improvement) append_improvement(out, *document.improvement);
   out += "\n}\n";
   return out;
 }

@@ -73,7 +73,7 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   ReservationTable reservations(instance.map, largest_radius_cells(instance) + rules.inflate_distance_cells,
                                 rules.inflate_time_s);
   PlanResult result;
-  result.ssi_kept_s = options.ssi_s;
+  result.ssi_s = options.ssi_s;
   while (true) {
     Solution solution;
     solution.trajectories.resize(instance.agents.size());
@@ -119,6 +119,7 @@ PlanStatus status_of(LacamStatus status) {
 /// Goes on where `result` has no plan.
 void plan_all_at_once(const Instance& instance, const PlannerOptions& options, PlanResult& result) {
   result.made_by = Method::kComplete;
+  result.ssi_s = options.ssi_s;
   if (find_beyond_complete(instance)) return;
   CompleteOptions complete_options;
   complete_options.seed = options.seed;
@@ -154,11 +155,47 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   } else {
     const std::unique_ptr<SingleAgentPlanner> search = single_agent_planner(instance, options);
     result = plan_prioritized(instance, options, *search);
+    result.ssi_kept_s = result.ssi_s;
     if (result.status != PlanStatus::kSolved && options.fallback == Fallback::kComplete) {
       plan_all_at_once(instance, options, result);
     }
   }
   result.planning_seconds = seconds_since(begin);
+  return result;
+}
+
+PlannerOptions left_of(const PlannerOptions& options, const PlanResult& done) {
+  PlannerOptions left = options;
+  left.time_limit_s = options.time_limit_s - done.planning_seconds;
+  left.max_expansions = options.max_expansions - done.statistics.expansions;
+  left.max_restarts = options.max_restarts - done.tries();
+  return left;
+}
+
+void prepend(const PlanResult& before, PlanResult& result) {
+  result.trace.insert(result.trace.begin(), before.trace.begin(), before.trace.end());
+  result.statistics += before.statistics;
+  result.planning_seconds += before.planning_seconds;
+}
+
+PlanResult plan_escalating(const Instance& instance, const PlannerOptions& options,
+                           const std::vector<double>& longer_s) {
+  PlannerOptions first = options;
+  if (!longer_s.empty()) first.fallback = Fallback::kNone;  // it comes last
+  PlanResult result = plan(instance, first);
+  for (const double& ssi_s : longer_s) {
+    if (result.status != PlanStatus::kFailed) break;
+    PlannerOptions left = left_of(options, result);
+    if (&ssi_s != &longer_s.back()) left.fallback = Fallback::kNone;
+    if (result.tries() > options.max_restarts || !(left.time_limit_s > 0)) {
+      result.status = PlanStatus::kLimit;
+      break;
+    }
+    left.ssi_s = ssi_s;
+    PlanResult next = plan(instance, left);
+    prepend(result, next);
+    result = std::move(next);
+  }
   return result;
 }
 

@@ -38,11 +38,12 @@ struct PlanResult {
   /// Every try in turn; the last one has the final order.
   std::vector<Try> trace;
   Method made_by = Method::kPrioritized;  ///< who made the plan, or failed last
+  SearchStatistics statistics;            ///< over all tries
+  double ssi_s = 0;                       ///< start-safe interval that the last try was to keep
   /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. As
-  /// long as it was asked for, except for plans of the complete planner, which makes them
+  /// long as it was to be kept, except for plans of the complete planner, which makes them
   /// first and then looks for the order that keeps the promise the longest.
   double ssi_kept_s = 0;
-  SearchStatistics statistics;  ///< over all tries
   double planning_seconds = 0;  ///< wall clock, planning alone
 
   std::size_t tries() const { return trace.size(); }
@@ -63,5 +64,17 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
 /// REQUIRES: !find_beyond_complete(instance) where the options name the complete planner;
 /// else there is no plan of it.
 PlanResult plan(const Instance& instance, const PlannerOptions& options);
+
+/// The options of a run that goes on after others: with what is left of their limits.
+/// REQUIRES: done.tries() <= options.max_restarts.
+PlannerOptions left_of(const PlannerOptions& options, const PlanResult& done);
+
+/// Adds the tries and the work of `before` to a result that came after it.
+void prepend(const PlanResult& before, PlanResult& result);
+
+/// Escalation: where the method fails with options.ssi_s, it is run again with each of
+/// `longer_s` in turn. Tries and work are those of all runs, and so are the limits.
+PlanResult plan_escalating(const Instance& instance, const PlannerOptions& options,
+                           const std::vector<double>& longer_s);
 
 }  // namespace sipplab

@@ -8,7 +8,7 @@
 #include <deque>
 #include <set>
 
-#include "planner/validator/validator.hpp"
+#include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
@@ -43,10 +43,7 @@ PlanResult plan_case_of(const PlanCase& plan_case) {
 
 void is_right(const PlanCase& plan_case, const PlanResult& result) {
   if (result.status != PlanStatus::kSolved) return;
-  const ValidationReport report =
-      validate(plan_case.instance, result.solution, {plan_case.options.ssi_s, result.order()});
-  for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
-  RC_ASSERT(report.valid());
+  assert_valid(plan_case.instance, result.solution, {plan_case.options.ssi_s, result.order()});
 }
 
 /// The first order, as the other rules have it.

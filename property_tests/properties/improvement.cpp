@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "planner/grid/neighbourhood.hpp"
-#include "planner/validator/validator.hpp"
+#include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
@@ -48,18 +48,12 @@ ImproveOptions any_improve_options(const PlannerOptions& options) {
 ImproveResult improved(const Planned& planned, const ImproveOptions& options) {
   ImproveResult result =
       improve(planned.plan_case.instance, planned.result.solution, planned.result.order(), options);
-  RC_CLASSIFY(result.improvements > 0, "improved");
-  RC_CLASSIFY(result.improvements > 1, "improved more than once");
+  RC_CLASSIFY(result.log.improvements > 0, "improved");
+  RC_CLASSIFY(result.log.improvements > 1, "improved more than once");
   return result;
 }
 
 PlanCost cost_of(const Solution& solution) { return {flowtime_s(solution), makespan_s(solution)}; }
-
-void is_valid(const Instance& instance, const Solution& solution, const ValidationOptions& options) {
-  const ValidationReport report = validate(instance, solution, options);
-  for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
-  RC_ASSERT(report.valid());
-}
 
 /// Straight sections between all cells at which a disk may be, shortest ways by Floyd and Warshall.
 class AllWays {
@@ -102,12 +96,12 @@ int main() {
     const PlanCost before = cost_of(planned.result.solution);
     const PlanCost after = cost_of(result.solution);
     RC_ASSERT(!is_better(options.objective, before, after));
-    RC_ASSERT(result.iterations <= options.max_iterations);
-    RC_ASSERT(result.curve.front().cost.flowtime_s == before.flowtime_s);
-    RC_ASSERT(result.curve.back().cost.flowtime_s == after.flowtime_s);
-    RC_ASSERT(result.curve.back().cost.makespan_s == after.makespan_s);
-    for (std::size_t i = 1; i + 1 < result.curve.size(); ++i) {
-      RC_ASSERT(is_better(options.objective, result.curve[i].cost, result.curve[i - 1].cost));
+    RC_ASSERT(result.log.iterations <= options.max_iterations);
+    RC_ASSERT(result.log.curve.front().cost.flowtime_s == before.flowtime_s);
+    RC_ASSERT(result.log.curve.back().cost.flowtime_s == after.flowtime_s);
+    RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
+    for (std::size_t i = 1; i + 1 < result.log.curve.size(); ++i) {
+      RC_ASSERT(is_better(options.objective, result.log.curve[i].cost, result.log.curve[i - 1].cost));
     }
   });
 
@@ -116,7 +110,8 @@ int main() {
     const ImproveOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult result = improved(planned, options);
     RC_ASSERT(result.order.has_value());
-    is_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+    RC_ASSERT(result.log.keeps_promise);
+    assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
   });
 
   passed &= property("improve (2)(3): a promise that was not made is made only where it holds", [] {
@@ -125,8 +120,9 @@ int main() {
     options.ssi_s = *rc::gen::element(1.0, 2.5, 5.0, kInfiniteSsi);
     const ImproveResult result = improved(planned, options);
     RC_CLASSIFY(!result.order, "in no order");
-    is_valid(planned.plan_case.instance, result.solution, {});
-    if (result.order) is_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+    assert_valid(planned.plan_case.instance, result.solution, {});
+    if (result.order)
+      assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
   });
 
   passed &= property("improve (4): the same number of iterations gives the same plan", [] {
@@ -139,9 +135,9 @@ int main() {
     RC_ASSERT(one.statistics.expansions == same.statistics.expansions);
     options.max_iterations += *rc::gen::inRange<std::uint64_t>(0, 20);
     const ImproveResult longer = improved(planned, options);
-    for (std::size_t i = 0; i + 1 < one.curve.size(); ++i) {
-      RC_ASSERT(longer.curve[i].iteration == one.curve[i].iteration);
-      RC_ASSERT(longer.curve[i].cost.flowtime_s == one.curve[i].cost.flowtime_s);
+    for (std::size_t i = 0; i + 1 < one.log.curve.size(); ++i) {
+      RC_ASSERT(longer.log.curve[i].iteration == one.log.curve[i].iteration);
+      RC_ASSERT(longer.log.curve[i].cost.flowtime_s == one.log.curve[i].cost.flowtime_s);
     }
   });
 
@@ -152,14 +148,14 @@ int main() {
     options.stop = &stop;
     const ImproveResult result = improved(planned, options);
     RC_ASSERT(result.solution == planned.result.solution);
-    RC_ASSERT(result.iterations == 0u);
+    RC_ASSERT(result.log.iterations == 0u);
   });
 
   passed &= property("the lower bound is below every plan", [] {
     const Planned planned = any_planned();
     const ImproveResult result = improved(planned, any_improve_options(planned.plan_case.options));
-    RC_ASSERT(result.bound.flowtime_s <= flowtime_s(result.solution) + kRoundingCells);
-    RC_ASSERT(result.bound.makespan_s <= makespan_s(result.solution) + kRoundingCells);
+    RC_ASSERT(result.log.bound.flowtime_s <= flowtime_s(result.solution) + kRoundingCells);
+    RC_ASSERT(result.log.bound.makespan_s <= makespan_s(result.solution) + kRoundingCells);
   });
 
   passed &= property("static times are those of the shortest of all ways", [] {

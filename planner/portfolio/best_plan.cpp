@@ -1,0 +1,109 @@
+#include "planner/portfolio/best_plan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/prioritized/limits.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Restarts of the method of the options: where it needs many more, ejection is faster.
+/// (Trials on the paper's warehouse: 3 tries on average at 128 robots, 11 at 160.)
+constexpr std::uint64_t kMethodRestarts = 4;
+/// Restarts with each longer start-safe interval.
+constexpr std::uint64_t kEscalationRestarts = 1;
+/// Robots that may fail during ejection, for each robot of the instance. (Trials: one for
+/// every three robots at 192 in the paper's warehouse.)
+constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
+
+class BestPlan {
+ public:
+  BestPlan(const Instance& instance, const BestOptions& options)
+      : instance_(instance), options_(options), begin_(Clock::now()) {}
+
+  BestResult run() {
+    const PlannerOptions& planner = options_.planner;
+    const bool is_found =
+        take(BestStep::Kind::kMethod, planner.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
+        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection);
+    if (is_found) improve_it();
+    return std::move(result_);
+  }
+
+ private:
+  double time_left_s() const { return options_.planner.time_limit_s - seconds_since(begin_); }
+
+  bool escalate(BestStep::Kind kind) {
+    return std::any_of(options_.longer_ssi_s.begin(), options_.longer_ssi_s.end(),
+                       [this, kind](double ssi_s) { return take(kind, ssi_s); });
+  }
+
+  std::uint64_t restarts_of(BestStep::Kind kind) const {
+    switch (kind) {
+      case BestStep::Kind::kMethod:
+        return kMethodRestarts;
+      case BestStep::Kind::kEscalation:
+        return kEscalationRestarts;
+      case BestStep::Kind::kEjection:
+        return kEjectionRestartsPerRobot * instance_.agents.size();
+    }
+    return 0;
+  }
+
+  /// Whether that gave a plan. The first step is always taken; others only where something is
+  /// left of every limit.
+  bool take(BestStep::Kind kind, double ssi_s) {
+    const PlanResult& before = result_.plan;
+    PlannerOptions step = options_.planner;
+    const bool is_first = result_.steps.empty();
+    if (!is_first) {
+      if (before.tries() > step.max_restarts || before.statistics.expansions >= step.max_expansions)
+        return false;
+      step = left_of(step, before);
+      step.time_limit_s = time_left_s();
+      if (search_limits(step, Clock::now()).is_over()) return false;
+    }
+    step.ssi_s = ssi_s;
+    step.max_restarts = std::min(step.max_restarts, restarts_of(kind));
+    if (kind == BestStep::Kind::kEjection) step.rescheduling = Rescheduling::kEjection;
+    PlanResult next = plan(instance_, step);
+    result_.steps.push_back({kind, ssi_s, next.status, next.tries(), next.planning_seconds});
+    prepend(before, next);
+    result_.plan = std::move(next);
+    return result_.plan.status == PlanStatus::kSolved;
+  }
+
+  void improve_it() {
+    ImproveOptions improving = improve_options(options_.planner, result_.plan);
+    improving.objective = options_.objective;
+    improving.max_iterations = options_.max_iterations;
+    improving.time_limit_s = std::min(options_.improve_time_limit_s, time_left_s());
+    result_.improvement = improve(instance_, result_.plan.solution, result_.plan.order(), improving);
+  }
+
+  const Instance& instance_;
+  const BestOptions& options_;
+  Clock::time_point begin_;
+  BestResult result_;
+};
+
+}  // namespace
+
+std::string_view name(BestStep::Kind kind) {
+  switch (kind) {
+    case BestStep::Kind::kMethod:
+      return "method";
+    case BestStep::Kind::kEscalation:
+      return "escalation";
+    case BestStep::Kind::kEjection:
+      return "ejection";
+  }
+  return "unknown";
+}
+
+BestResult plan_best(const Instance& instance, const BestOptions& options) {
+  return BestPlan(instance, options).run();
+}
+
+}  // namespace sipplab

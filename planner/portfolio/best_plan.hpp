@@ -1,0 +1,56 @@
+// The best plan that can be had in a given time: methods from the paper's to coarser ones
+// until one gives a plan, then improvement until the time is over.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "planner/improve/improve.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+
+namespace sipplab {
+
+struct BestOptions {
+  /// The method of the first step, and limits over all steps: time_limit_s is for everything.
+  PlannerOptions planner;
+  /// Longer start-safe intervals that are tried when planner.ssi_s fails.
+  std::vector<double> longer_ssi_s = {9, 15};
+  Objective objective;
+  /// Of the improvement, besides the limits of `planner`.
+  std::uint64_t max_iterations = UINT64_MAX;
+  double improve_time_limit_s = std::numeric_limits<double>::infinity();
+};
+
+/// A step of plan_best() that was taken.
+struct BestStep {
+  enum class Kind { kMethod, kEscalation, kEjection };
+  Kind kind = Kind::kMethod;
+  double ssi_s = 0;
+  PlanStatus status = PlanStatus::kFailed;
+  std::size_t tries = 0;
+  double seconds = 0;
+};
+/// "method", "escalation", "ejection".
+std::string_view name(BestStep::Kind kind);
+
+struct BestResult {
+  /// The first plan that was found, with the tries and work of all steps.
+  PlanResult plan;
+  std::vector<BestStep> steps;
+  /// None where there is no plan.
+  std::optional<ImproveResult> improvement;
+};
+
+/// Steps, each until it gives a plan or has had its restarts:
+///  (1) the method of the options;
+///  (2) the same with each longer start-safe interval;
+///  (3) ejection, with the first interval and then with the longer ones;
+/// then the plan is improved until a limit strikes. All steps but the last are limited by
+/// counts, so the result is repeatable where max_iterations strikes before the time limit.
+/// REQUIRES: !find_error(instance).
+BestResult plan_best(const Instance& instance, const BestOptions& options);
+
+}  // namespace sipplab

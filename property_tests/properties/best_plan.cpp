@@ -1,0 +1,127 @@
+// Methods tried one after the other: escalation of start-safe intervals, and the best plan
+// that can be had.
+#include "planner/portfolio/best_plan.hpp"
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "property_tests/support/assert_valid.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab {
+namespace {
+
+constexpr std::uint64_t kRestarts = 40;
+constexpr std::uint64_t kIterations = 10;
+
+PlanCase any_noted_case() {
+  PlanCase plan_case = *any_case();
+  plan_case.options.max_restarts = std::min(plan_case.options.max_restarts, kRestarts);
+  classify_case(plan_case);
+  note_case(plan_case);
+  return plan_case;
+}
+
+std::vector<double> any_longer_ssi_s() {
+  return *rc::gen::element(std::vector<double>{}, std::vector<double>{2.5},
+                           std::vector<double>{1, 5, kInfiniteSsi});
+}
+
+BestOptions best_options(const PlanCase& plan_case) {
+  BestOptions options;
+  options.planner = plan_case.options;
+  options.longer_ssi_s = any_longer_ssi_s();
+  options.max_iterations = kIterations;
+  return options;
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &=
+      property("escalation: the plan of the first start-safe interval with which the method succeeds", [] {
+        PlanCase plan_case = any_noted_case();
+        const std::vector<double> longer_s = any_longer_ssi_s();
+        const PlanResult result = plan_escalating(plan_case.instance, plan_case.options, longer_s);
+        RC_CLASSIFY(result.ssi_s != plan_case.options.ssi_s, "with another interval");
+        RC_CLASSIFY(result.ssi_s != plan_case.options.ssi_s && result.status == PlanStatus::kSolved,
+                    "solved with another interval");
+        RC_ASSERT(result.tries() <= plan_case.options.max_restarts + 1);
+        RC_ASSERT(result.statistics.expansions <= plan_case.options.max_expansions);
+        if (result.status == PlanStatus::kSolved) {
+          assert_valid(plan_case.instance, result.solution, {result.ssi_s, result.order()});
+        }
+        RC_PRE(result.status != PlanStatus::kLimit);
+        std::vector<double> all_s = {plan_case.options.ssi_s};
+        all_s.insert(all_s.end(), longer_s.begin(), longer_s.end());
+        std::size_t tries = 0;
+        for (const double ssi_s : all_s) {
+          plan_case.options.ssi_s = ssi_s;
+          const PlanResult one = plan(plan_case.instance, plan_case.options);
+          tries += one.tries();
+          if (one.status != PlanStatus::kSolved) continue;
+          RC_ASSERT(result.solution == one.solution);
+          RC_ASSERT(result.ssi_s == ssi_s);
+          RC_ASSERT(result.tries() == tries);
+          return;
+        }
+        RC_ASSERT(result.status == PlanStatus::kFailed);
+      });
+
+  passed &= property("the best plan: valid, with the promise of the interval that was planned with", [] {
+    const PlanCase plan_case = any_noted_case();
+    const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
+    RC_CLASSIFY(best.steps.size() > 1, "several steps");
+    RC_CLASSIFY(best.steps.size() > 1 && best.improvement, "solved in a later step");
+    RC_ASSERT(best.improvement.has_value() == (best.plan.status == PlanStatus::kSolved));
+    if (!best.improvement) return;
+    RC_ASSERT(best.improvement->order.has_value());
+    assert_valid(plan_case.instance, best.improvement->solution, {best.plan.ssi_s, *best.improvement->order});
+    const PlanCost before{flowtime_s(best.plan.solution), makespan_s(best.plan.solution)};
+    RC_ASSERT(!is_better(Objective{}, before, best.improvement->log.curve.back().cost));
+  });
+
+  passed &=
+      property("the best plan: solves what the method solves in few tries, and what ejection solves", [] {
+        PlanCase plan_case = any_noted_case();
+        plan_case.options.max_expansions = UINT64_MAX;
+        const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
+        plan_case.options.max_restarts = 4;
+        const PlanResult method = plan(plan_case.instance, plan_case.options);
+        plan_case.options.rescheduling = Rescheduling::kEjection;
+        plan_case.options.max_restarts = 4 * plan_case.instance.agents.size();
+        const PlanResult ejection = plan(plan_case.instance, plan_case.options);
+        RC_CLASSIFY(method.status != PlanStatus::kSolved && best.improvement.has_value(),
+                    "better than the method");
+        // Steps before it may have used up the restarts that ejection would need.
+        if (method.status == PlanStatus::kSolved) {
+          RC_ASSERT(best.plan.solution == method.solution);
+        } else if (ejection.status == PlanStatus::kSolved && best.plan.tries() <= kRestarts) {
+          RC_ASSERT(best.improvement.has_value());
+        }
+      });
+
+  passed &= property("the best plan: the same again, and its tries are those of its steps", [] {
+    const PlanCase plan_case = any_noted_case();
+    const BestOptions options = best_options(plan_case);
+    const BestResult one = plan_best(plan_case.instance, options);
+    const BestResult other = plan_best(plan_case.instance, options);
+    RC_ASSERT(one.plan.status == other.plan.status);
+    RC_ASSERT(one.plan.tries() == other.plan.tries());
+    RC_ASSERT(one.improvement.has_value() == other.improvement.has_value());
+    if (one.improvement) RC_ASSERT(one.improvement->solution == other.improvement->solution);
+    RC_ASSERT(one.plan.tries() <= options.planner.max_restarts + 1);
+    std::size_t tries = 0;
+    for (const BestStep& step : one.steps) tries += step.tries;
+    RC_ASSERT(one.plan.tries() == tries);
+  });
+
+  return passed ? 0 : 1;
+}
