@@ -11,10 +11,12 @@
 
 namespace sipplab::bench {
 
-/// Which planner for one robot.
+/// Which planner: for one robot, and for all.
 struct PlannerMode {
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours
+  Method method = Method::kPrioritized;
+  Fallback fallback = Fallback::kNone;
 };
 
 struct SuiteBlock {
@@ -42,7 +44,7 @@ struct Suite {
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, paper, paper-quick, adversarial.
+/// smoke, gate, density, paper, paper-quick, adversarial, dense.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

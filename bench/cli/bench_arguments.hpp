@@ -27,6 +27,8 @@ struct BenchArguments {
   std::vector<std::string> order;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
+  std::optional<std::string> method;
+  std::optional<std::string> fallback;
   std::optional<std::uint64_t> count;
   std::optional<std::string> time_limit;
   std::optional<std::uint64_t> max_expansions;

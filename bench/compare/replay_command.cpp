@@ -31,6 +31,8 @@ std::string planner_flags(const db::CaseInfo& parameters) {
       fmt::format("--ssi {} --reschedule {} --order {} --connectedness {}", format_ssi(parameters.ssi_s),
                   parameters.reschedule, parameters.order, parameters.connectedness);
   if (!parameters.any_angle) flags += " --no-any-angle";
+  if (is_complete_planner(parameters.planner)) flags += " --method complete";
+  if (has_complete_fallback(parameters.planner)) flags += " --fallback complete";
   flags += fmt::format(" --seed {}", parameters.seed);
   if (parameters.max_restarts < db::kNoCountLimit) {
     flags += fmt::format(" --max-restarts {}", parameters.max_restarts);

@@ -8,6 +8,9 @@ namespace sipplab::bench {
 namespace {
 
 constexpr std::string_view kProgramPrefix = "cmd:";
+/// Ends the name of a planner that has the complete one as its fallback.
+constexpr std::string_view kFallbackSuffix = "+complete";
+constexpr std::string_view kComplete = "complete";
 
 /// The history keeps counts as signed integers; its largest means "no limit".
 std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCountLimit); }
@@ -15,7 +18,10 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
-  return sweep_case.options.any_angle ? "aa-sipp" : "sipp";
+  const PlannerOptions& options = sweep_case.options;
+  if (options.method == Method::kComplete) return std::string(kComplete);
+  return std::string(options.any_angle ? "aa-sipp" : "sipp") +
+         std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "");
 }
 
 }  // namespace
@@ -25,8 +31,16 @@ bool is_another_program(std::string_view planner) {
 }
 
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
-  if (is_another_program(planner)) return std::string(planner);
-  return fmt::format("{}-{}", any_angle ? "any-angle" : "grid", 1 << connectedness);
+  if (is_another_program(planner) || planner == kComplete) return std::string(planner);
+  return fmt::format("{}-{}{}", any_angle ? "any-angle" : "grid", 1 << connectedness,
+                     has_complete_fallback(planner) ? kFallbackSuffix : "");
+}
+
+bool is_complete_planner(std::string_view planner) { return planner == kComplete; }
+
+bool has_complete_fallback(std::string_view planner) {
+  return !is_another_program(planner) && planner.size() > kFallbackSuffix.size() &&
+         planner.substr(planner.size() - kFallbackSuffix.size()) == kFallbackSuffix;
 }
 
 std::string planner_name(const SweepCase& sweep_case) {

@@ -25,12 +25,17 @@ struct SweepCase {
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
+/// "complete": the complete planner; "any-angle-4+complete": with it as fallback.
 /// "cmd:NAME": another program, which `planner` of the history is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);
 
 /// Whether `planner` of the history is another program.
 bool is_another_program(std::string_view planner);
+
+/// Whether `planner` of the history is the complete planner, or has it as its fallback.
+bool is_complete_planner(std::string_view planner);
+bool has_complete_fallback(std::string_view planner);
 
 /// "plan/warehouse/agents:64/ssi:5/reschedule:deterministic/order:shortest/planner:any-angle-4",
 /// and "/seed:2" where more than one seed is tried.
