@@ -12,11 +12,13 @@
 
 namespace sipplab::bench {
 
-/// Which planner for one robot.
+/// Which planner: for one robot, and for all.
 struct PlannerMode {
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours
   MotionRules rules = {};
+  Method method = Method::kPrioritized;
+  Fallback fallback = Fallback::kNone;
 };
 
 /// What the robots of generated instances are like; see GeneratorOptions.
@@ -54,7 +56,7 @@ struct Suite {
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, mixed, paper, paper-quick, adversarial.
+/// smoke, gate, density, mixed, paper, paper-quick, adversarial, dense.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

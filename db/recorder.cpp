@@ -26,7 +26,8 @@ Error bad_input(const Database& database, std::string what) {
 // SQLite would store a NaN as NULL without a word.
 bool has_nan(const ResultRow& row) {
   const auto is_nan = [](const std::optional<double>& value) { return value && std::isnan(*value); };
-  return is_nan(row.makespan_s) || is_nan(row.flowtime_s) || is_nan(row.min_clearance_cells);
+  return is_nan(row.makespan_s) || is_nan(row.flowtime_s) || is_nan(row.min_clearance_cells) ||
+         is_nan(row.ssi_kept_s);
 }
 
 std::optional<std::string> null_if_empty(const std::string& text) {
@@ -221,7 +222,8 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
       "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
       "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
       "peak_memory_bytes, "
-      "limit_struck, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "limit_struck, message, made_by, ssi_kept_s) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the results of a case");
   if (!insert) return Unexpected{insert.error()};
   auto keys = InstanceKeys::prepare(database_.connection());
@@ -235,7 +237,7 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                  row.planning_time_ns, row.makespan_s, row.flowtime_s, to_count(row.tries),
                  to_count(row.expansions), to_count(row.generations), plan_hash, row.valid, row.violations,
                  row.min_clearance_cells, row.peak_memory_bytes, null_if_empty(row.limit),
-                 null_if_empty(row.message));
+                 null_if_empty(row.message), null_if_empty(row.made_by), row.ssi_kept_s);
     if (auto done = insert->run(); !done) return done;
   }
   return Done{};

@@ -79,7 +79,7 @@ struct CaseInfo {
   std::string instance_set;  ///< where instances come from: "generated/seed:1", or a folder
   std::int64_t robots = 0;
   double ssi_s = 0;        ///< start-safe interval, may be infinite
-  std::string planner;     ///< "aa-sipp", "sipp"
+  std::string planner;     ///< "aa-sipp", "sipp", "complete"; "aa-sipp+complete": with a fallback
   std::string order;       ///< initial order: "fifo", "shortest", "longest", "random"
   std::string reschedule;  ///< "none", "deterministic", "random"
   bool any_angle = true;
@@ -133,8 +133,11 @@ struct ResultRow {
   std::int64_t violations = 0;
   std::optional<double> min_clearance_cells;  ///< may be infinite (one robot)
   std::optional<std::int64_t> peak_memory_bytes;
-  std::string limit;    ///< which limit struck: "time", "expansions", "restarts"; else empty
-  std::string message;  ///< the first violation in words; else empty
+  /// Which limit struck: "time", "expansions", "restarts", "memory"; else empty.
+  std::string limit;
+  std::string message;               ///< the first violation in words; else empty
+  std::string made_by;               ///< "prioritized", "complete"; empty: another program
+  std::optional<double> ssi_kept_s;  ///< may be infinite
 };
 
 enum class RunStatus {

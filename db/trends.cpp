@@ -103,7 +103,8 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
       database.connection(),
       "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s-%d', environment, robots, "
       "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, "
-      "iif(any_angle, 'any-angle', 'grid'), 1 << connectedness) FROM case_ "
+      "iif(any_angle, 'any-angle', 'grid'), 1 << connectedness) || "
+      "iif(planner GLOB '*+complete', '+complete', iif(planner = 'complete', ', complete', '')) FROM case_ "
       "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS NULL OR robots = ?3) "
       "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
       "AND (?6 IS NULL OR initial_order = ?6) AND (?7 IS NULL OR any_angle = ?7) "

@@ -59,6 +59,8 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   request.connectedness = arguments.connectedness;
   request.any_angle = arguments.any_angle;
   request.turns = arguments.turns;
+  if (arguments.method) request.method = parse_method(*arguments.method);
+  if (arguments.fallback) request.fallback = parse_fallback(*arguments.fallback);
   request.count = arguments.count;
   if (arguments.time_limit) request.time_limit_s = parse_time_limit_s(*arguments.time_limit);
   request.max_expansions = arguments.max_expansions;
@@ -266,15 +268,15 @@ std::string suite_names() {
 }
 
 void add_flags(CLI::App& command, BenchArguments& arguments) {
-  CLI::Option* suite =
-      command.add_option("--suite", arguments.suite, suite_names())
-          ->check([](const std::string& text) {
-            return bench::find_suite(text) != nullptr
-                       ? std::string()
-                       : in_quotes(text) +
-                             ", expected smoke, gate, density, mixed, paper, paper-quick or adversarial";
-          })
-          ->capture_default_str();
+  CLI::Option* suite = command.add_option("--suite", arguments.suite, suite_names())
+                           ->check([](const std::string& text) {
+                             return bench::find_suite(text) != nullptr
+                                        ? std::string()
+                                        : in_quotes(text) +
+                                              ", expected smoke, gate, density, mixed, paper, paper-quick, "
+                                              "adversarial or dense";
+                           })
+                           ->capture_default_str();
   CLI::Option* folders =
       command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
           ->excludes(suite)
@@ -297,6 +299,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->check(CLI::Range(2, 5));
   add_any_angle_flag(command, arguments.any_angle);
   add_turns_flag(command, arguments.turns);
+  add_method_flags(command, arguments.method, arguments.fallback);
   command.add_option("--count", arguments.count, "instances per case")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   command.add_option("--time-limit", arguments.time_limit, "wall-clock seconds per instance, or inf")

@@ -28,6 +28,8 @@ struct BenchArguments {
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
   std::optional<bool> turns;
+  std::optional<std::string> method;
+  std::optional<std::string> fallback;
   std::optional<std::uint64_t> count;
   std::optional<std::string> time_limit;
   std::optional<std::uint64_t> max_expansions;

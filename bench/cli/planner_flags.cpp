@@ -160,7 +160,7 @@ void PlannerFlags::apply_to(PlannerOptions& options) const {
 std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options) {
   const bool asked_for = options.method == Method::kComplete || options.fallback == Fallback::kComplete;
   if (!asked_for) return std::nullopt;
-  const std::optional<InstanceError> error = find_beyond_complete(instance);
+  const std::optional<InstanceError> error = find_beyond_complete(instance, options.rules);
   if (!error) return std::nullopt;
   return error->what + ", expected " + error->expected;
 }

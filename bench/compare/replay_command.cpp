@@ -45,7 +45,8 @@ std::string planner_flags(const db::CaseInfo& parameters) {
       fmt::format("--ssi {} --reschedule {} --order {} --connectedness {}", format_ssi(parameters.ssi_s),
                   parameters.reschedule, parameters.order, parameters.connectedness);
   if (!parameters.any_angle) flags += " --no-any-angle";
-  flags += rules_flags(parameters.planner);
+  if (is_complete_planner(parameters.planner)) flags += " --method complete";
+  flags += suffix_flags(parameters.planner);
   flags += fmt::format(" --seed {}", parameters.seed);
   if (parameters.max_restarts < db::kNoCountLimit) {
     flags += fmt::format(" --max-restarts {}", parameters.max_restarts);

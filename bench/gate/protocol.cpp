@@ -49,7 +49,9 @@ json to_json(const PlannerOptions& options) {
           {"inflate_time", options.rules.inflate_time_s},
           {"seed", options.seed},
           {"max_expansions", options.max_expansions},
-          {"max_restarts", options.max_restarts}};
+          {"max_restarts", options.max_restarts},
+          {"method", name(options.method)},
+          {"fallback", name(options.fallback)}};
 }
 
 Expected<PlannerOptions, std::string> options_from_json(const json& object) {
@@ -72,6 +74,12 @@ Expected<PlannerOptions, std::string> options_from_json(const json& object) {
     options.seed = object.at("seed").get<std::uint64_t>();
     options.max_expansions = object.at("max_expansions").get<std::uint64_t>();
     options.max_restarts = object.at("max_restarts").get<std::uint64_t>();
+    // A partner of an older build says nothing of these.
+    const auto method = parse_method(object.value("method", std::string(name(options.method))));
+    const auto fallback = parse_fallback(object.value("fallback", std::string(name(options.fallback))));
+    if (!method || !fallback) return Unexpected{std::string(kNotOurWords)};
+    options.method = *method;
+    options.fallback = *fallback;
     options.time_limit_s = db::kNoTimeLimit;  // a clock that strikes would change results
     return options;
   });

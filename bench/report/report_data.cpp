@@ -18,7 +18,8 @@ constexpr const char* kTrendMetrics[] = {"success", "runtime", "flowtime", "expa
 constexpr const char* kCells = R"sql(
 SELECT head.environment AS environment, head.robots AS robots, head.ssi_s AS ssi_s, head.reschedule AS reschedule,
        head.initial_order AS initial_order,
-       iif(head.any_angle, 'any-angle-', 'grid-') || (1 << head.connectedness) AS planner,
+       iif(head.planner = 'complete', 'complete', iif(head.any_angle, 'any-angle-', 'grid-') || (1 << head.connectedness))
+         || iif(head.planner GLOB '*+complete', '+complete', '') AS planner,
        count(*) AS pairs,
        sum(head.plan_hash IS NOT base.plan_hash OR head.status <> base.status OR head.expansions <> base.expansions)
          AS different,

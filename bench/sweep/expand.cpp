@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "bench/adversarial.hpp"
+#include "planner/complete/complete_planner.hpp"
+#include "planner/grid/neighbourhood.hpp"
 #include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::bench {
@@ -33,8 +35,10 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
     }
   }
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
-  if (request.any_angle) {
-    for (PlannerMode& planner : block.planners) planner.any_angle = *request.any_angle;
+  for (PlannerMode& planner : block.planners) {
+    planner.any_angle = request.any_angle.value_or(planner.any_angle);
+    planner.method = request.method.value_or(planner.method);
+    planner.fallback = request.fallback.value_or(planner.fallback);
   }
   if (request.turns) {
     for (PlannerMode& planner : block.planners) planner.rules.turns = *request.turns;
@@ -55,6 +59,32 @@ PlannerOptions limits_of(const SweepRequest& request) {
   return limits;
 }
 
+/// What the complete planner has no use for gets one value, so that cases are not planned
+/// twice under two names.
+PlannerOptions without_idle_choices(PlannerOptions options) {
+  if (options.method != Method::kComplete) return options;
+  const PlannerOptions defaults;
+  options.order = defaults.order;
+  options.rescheduling = Rescheduling::kNone;
+  options.any_angle = false;
+  options.connectedness = kMinConnectedness;
+  options.fallback = Fallback::kNone;
+  return options;
+}
+
+/// Why a case cannot be planned, in one line.
+std::optional<std::string> find_beyond_complete(const ExpandedSweep& sweep) {
+  for (const NamedCase& named : sweep.cases) {
+    const PlannerOptions& options = named.parameters.options;
+    if (options.method != Method::kComplete && options.fallback != Fallback::kComplete) continue;
+    for (const PreparedInstance& prepared : sweep.sets[named.parameters.set].instances) {
+      const std::optional<InstanceError> error = find_beyond_complete(prepared.instance, sweep_case.options.rules);
+      if (error) return prepared.row.name + ": " + error->what + ", expected " + error->expected;
+    }
+  }
+  return std::nullopt;
+}
+
 class Expansion {
  public:
   explicit Expansion(const SweepRequest& request) : request_(request) {}
@@ -73,7 +103,9 @@ class Expansion {
             options.any_angle = planner.any_angle;
             options.connectedness = planner.connectedness;
             options.rules = planner.rules;
-            add_seeds(block, set, options);
+            options.method = planner.method;
+            options.fallback = planner.fallback;
+            add_seeds(block, set, without_idle_choices(options));
           }
         }
       }
@@ -178,7 +210,8 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
     block.ssi_s = {options.ssi_s};
     block.reschedules = {options.rescheduling};
     block.orders = {options.order};
-    block.planners = {{options.any_angle, options.connectedness, options.rules}};
+    block.planners = {
+        {options.any_angle, options.connectedness, options.rules, options.method, options.fallback}};
     const std::size_t set = expansion.add_set(
         single_instance_set("adversarial-" + std::string(adversarial.name), std::move(plan_case->instance)));
     expansion.add_cases(replaced(std::move(block), request), set, limits_of(request));
@@ -186,9 +219,7 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
   return expansion.take();
 }
 
-}  // namespace
-
-Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
+Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
   if (request.suite == nullptr) return expand_folders(request);
   if (request.suite->adversarial_cases) return expand_adversarial(request);
   const Suite& suite = *request.suite;
@@ -209,6 +240,15 @@ Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
     }
   }
   return expansion.take();
+}
+
+}  // namespace
+
+Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
+  Expected<ExpandedSweep, std::string> sweep = expand_all(request);
+  if (!sweep) return sweep;
+  if (const auto line = find_beyond_complete(*sweep)) return Unexpected{*line};
+  return sweep;
 }
 
 }  // namespace sipplab::bench

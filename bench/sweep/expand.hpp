@@ -31,6 +31,8 @@ struct SweepRequest {
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
   std::optional<bool> turns;
+  std::optional<Method> method;
+  std::optional<Fallback> fallback;
   std::optional<std::uint64_t> count;
   std::optional<double> time_limit_s;
   std::optional<std::uint64_t> max_expansions;
@@ -49,7 +51,8 @@ struct ExpandedSweep {
   std::vector<InstanceSet> sets;
 };
 
-/// Makes or reads all instances. Errors: one line.
+/// Makes or reads all instances. Errors: one line; also where an instance lies beyond the
+/// complete planner and a case asks for it.
 Expected<ExpandedSweep, std::string> expand(const SweepRequest& request);
 
 }  // namespace sipplab::bench

@@ -44,9 +44,7 @@ struct RefinedPlan {
     return improvement && improvement->order ? *improvement->order : plan.order();
   }
   /// How long it keeps starts safe, in that order; 0 where it promises nothing of them.
-  double ssi_kept_s() const {
-    return improvement && !improvement->log.keeps_promise ? 0 : plan.ssi_kept_s;
-  }
+  double ssi_kept_s() const { return improvement && !improvement->log.keeps_promise ? 0 : plan.ssi_kept_s; }
   /// What the validator is to check of a plan that was made under these rules.
   ValidationOptions promises(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
   /// Wall clock, planning and improving.

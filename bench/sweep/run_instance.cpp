@@ -35,6 +35,9 @@ std::optional<std::uint64_t> leading_bits(std::string_view hexadecimal) {
 std::string limit_struck(const PlanResult& result, const PlannerOptions& options) {
   if (result.status != PlanStatus::kLimit) return "";
   if (result.statistics.expansions >= options.max_expansions) return "expansions";
+  if (result.made_by == Method::kComplete) {
+    return result.planning_seconds < options.time_limit_s ? "memory" : "time";
+  }
   if (result.tries() > options.max_restarts) return "restarts";
   return "time";
 }
@@ -77,14 +80,17 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
   row.expansions = result.statistics.expansions;
   row.generations = result.statistics.generations;
   row.limit = limit_struck(result, options);
-  if (result.status == PlanStatus::kSolved) add_solution(result.solution, row);
+  row.made_by = std::string(name(result.made_by));
+  if (result.status != PlanStatus::kSolved) return row;
+  add_solution(result.solution, row);
+  row.ssi_kept_s = result.ssi_kept_s;
   return row;
 }
 
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   db::ResultRow row = described(options, result);
   if (result.status == PlanStatus::kSolved) {
-    add_verdict(instance, result.solution, {options.ssi_s, result.order(), options.rules}, row);
+    add_verdict(instance, result.solution, {result.ssi_kept_s, result.order(), options.rules}, row);
   }
   return row;
 }

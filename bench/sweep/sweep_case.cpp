@@ -10,6 +10,9 @@ namespace sipplab::bench {
 namespace {
 
 constexpr std::string_view kProgramPrefix = "cmd:";
+/// Ends the name of a planner that has the complete one as its fallback.
+constexpr std::string_view kFallbackSuffix = "+complete";
+constexpr std::string_view kComplete = "complete";
 
 /// The history keeps counts as signed integers; its largest means "no limit".
 std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCountLimit); }
@@ -17,7 +20,10 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
-  return (sweep_case.options.any_angle ? "aa-sipp" : "sipp") + rules_suffix(sweep_case.options.rules);
+  const PlannerOptions& options = sweep_case.options;
+  if (options.method == Method::kComplete) return std::string(kComplete);
+  return (options.any_angle ? "aa-sipp" : "sipp") + rules_suffix(options.rules) +
+         std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "");
 }
 
 /// A rule of numbers, its word in the history and its flag.
@@ -44,15 +50,16 @@ std::string rules_suffix(const MotionRules& rules) {
   return suffix;
 }
 
-std::string rules_flags(std::string_view planner) {
+std::string suffix_flags(std::string_view planner) {
   std::string flags;
   for (std::size_t at = planner.find('+'); at != std::string_view::npos;) {
     const std::size_t next = planner.find('+', at + 1);
-    const std::string_view rule = planner.substr(at + 1, next - at - 1);
-    const std::string_view word = rule.substr(0, rule.find(':'));
+    const std::string_view part = planner.substr(at + 1, next - at - 1);
+    const std::string_view word = part.substr(0, part.find(':'));
     if (word == "turns") flags += " --turns";
+    if (word == kComplete) flags += " --fallback complete";
     for (const Margin& margin : kMargins) {
-      if (word == margin.word) flags += fmt::format(" {} {}", margin.flag, rule.substr(word.size() + 1));
+      if (word == margin.word) flags += fmt::format(" {} {}", margin.flag, part.substr(word.size() + 1));
     }
     at = next;
   }
@@ -64,10 +71,12 @@ bool is_another_program(std::string_view planner) {
 }
 
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
-  if (is_another_program(planner)) return std::string(planner);
+  if (is_another_program(planner) || planner == kComplete) return std::string(planner);
   return fmt::format("{}-{}{}", any_angle ? "any-angle" : "grid", 1 << connectedness,
                      planner.substr(std::min(planner.find('+'), planner.size())));
 }
+
+bool is_complete_planner(std::string_view planner) { return planner == kComplete; }
 
 std::string planner_name(const SweepCase& sweep_case) {
   const PlannerOptions& options = sweep_case.options;

@@ -26,19 +26,23 @@ struct SweepCase {
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
 /// "any-angle-4+turns+wait:0.5": the same for robots with headings that stand before they
-/// move. "cmd:NAME": another program, which `planner` of the history is named after.
+/// move. "complete": the complete planner; "any-angle-4+complete": with it as fallback.
+/// "cmd:NAME": another program, which `planner` of the history is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);
 
 /// Rules as the history has them, after the method's name: "+turns", "+wait:0.5",
 /// "+distance:0.25", "+time:2"; nothing where there are none.
 std::string rules_suffix(const MotionRules& rules);
-/// " --turns --wait-before-move 0.5": the flags of `sipplab plan` for the suffix of a planner of
-/// the history.
-std::string rules_flags(std::string_view planner);
+/// " --turns --wait-before-move 0.5 --fallback complete": the flags of `sipplab plan` for the
+/// suffix of a planner of the history.
+std::string suffix_flags(std::string_view planner);
 
 /// Whether `planner` of the history is another program.
 bool is_another_program(std::string_view planner);
+
+/// Whether `planner` of the history is the complete planner.
+bool is_complete_planner(std::string_view planner);
 
 /// "plan/warehouse/agents:64/ssi:5/reschedule:deterministic/order:shortest/planner:any-angle-4",
 /// and "/seed:2" where more than one seed is tried.

@@ -156,6 +156,11 @@ TEST(ReplayCommand, TakesFilesAsTheyAre) {
   db::CaseInfo parameters = equal_cell(0).parameters;
   parameters.map_spec = "files";
   parameters.any_angle = false;
+  parameters.planner = "aa-sipp+complete";
+  EXPECT_NE(replay_command(parameters, "a.xml").find(" --fallback complete"), std::string::npos);
+  parameters.planner = "complete";
+  EXPECT_NE(replay_command(parameters, "a.xml").find(" --method complete"), std::string::npos);
+  parameters.planner = "aa-sipp";
   EXPECT_EQ(replay_command(parameters, "empty/64/3.xml"),
             "sipplab plan --instance empty/64/3.xml --ssi 5 --reschedule deterministic --order shortest "
             "--connectedness 2 --no-any-angle --seed 1");

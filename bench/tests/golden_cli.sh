@@ -89,6 +89,8 @@ refused 'speed 1, expected the speed of agent 0, 2, for the complete planner' pl
 refused "'greedy', expected none or complete" plan --instance bay.xml --fallback greedy
 refused "'greedy', expected prioritized or complete" plan --instance bay.xml --method greedy
 
+mkdir mixed && cp fast.xml mixed/0.xml
+
 # --- the history ------------------------------------------------------------------
 
 expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --connectedness 2 --count 2 --db history.db
@@ -102,6 +104,11 @@ expect 0 bench --suite smoke --benchmark_list_tests --benchmark_filter=agents:32
 equal "$(wc -l <out)" 8 "cases listed"
 says '^plan/warehouse/agents:32/ssi:2.5/reschedule:deterministic/order:fifo/planner:any-angle-4'
 [ ! -e sipplab.db ] || complain "listing cases made a history"
+expect 0 bench --suite dense --map warehouse --robots 128 --count 2 --db dense.db
+expect 0 bench --suite smoke --map warehouse --robots 128 --ssi 0 --reschedule none --order shortest --connectedness 2 --any-angle --count 2 --fallback complete --db dense.db
+equal "$("$sipplab" sql --db dense.db --format csv "SELECT planner, made_by, results, solved FROM v_plan_makers ORDER BY planner" | tail -n +2 | tr -d '\r' | tr '\n' ' ')" \
+  "aa-sipp+complete,complete,2,2 complete,complete,2,2 " "who made the plans"
+refused 'expected the speed of agent 0' bench --instances mixed --fallback complete --db dense.db
 expect 0 runs --db history.db
 equal "$(grep -cE 'smoke|instances' out)" 2 "runs listed"
 expect 0 show --db history.db --json

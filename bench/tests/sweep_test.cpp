@@ -62,6 +62,35 @@ TEST(Judged, ALimitNamesItself) {
   EXPECT_EQ(row.makespan_s, std::nullopt);
 }
 
+TEST(Judged, APlanOfTheFallbackNamesItsMaker) {
+  PlannerOptions options;
+  options.max_expansions = 1;
+  options.ssi_s = 0;
+  options.fallback = Fallback::kComplete;
+  const db::ResultRow limited = run_instance(small_instance(), options);
+  EXPECT_EQ(limited.made_by, "complete");
+  EXPECT_EQ(limited.limit, "expansions");
+  options.max_expansions = UINT64_MAX;
+  options.method = Method::kComplete;
+  const db::ResultRow solved = run_instance(small_instance(), options);
+  EXPECT_EQ(solved.status, db::ResultStatus::kSolved);
+  EXPECT_EQ(solved.made_by, "complete");
+  EXPECT_EQ(solved.ssi_kept_s, 0);
+}
+
+TEST(PlannerName, SaysWhatThePlannerIsMadeOf) {
+  SweepCase sweep_case;
+  EXPECT_EQ(planner_name(sweep_case), "any-angle-4");
+  sweep_case.options.fallback = Fallback::kComplete;
+  EXPECT_EQ(planner_name(sweep_case), "any-angle-4+complete");
+  EXPECT_EQ(case_row(sweep_case).planner, "aa-sipp+complete");
+  EXPECT_EQ(suffix_flags("aa-sipp+turns+wait:0.5+complete"),
+            " --turns --wait-before-move 0.5 --fallback complete");
+  sweep_case.options.method = Method::kComplete;
+  EXPECT_EQ(planner_name(sweep_case), "complete");
+  EXPECT_TRUE(is_complete_planner(case_row(sweep_case).planner));
+}
+
 TEST(CaseOutcome, MeansOfPlansAreOverSolvedInstancesAlone) {
   CaseOutcome outcome;
   EXPECT_EQ(outcome.mean_makespan_s(), std::nullopt);

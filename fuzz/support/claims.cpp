@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, kClaims> kClaimNames = {
     "last robot at zero",      "last goal is free",    "budget is kept",
     "trace follows rules",     "verdict is invariant", "planted defect is found",
     "closed form is right",    "sight is exact",       "twins agree",
+    "complete is complete",
 };
 constexpr std::array<std::string_view, kEvents> kEventNames = {
     "inputs",           "accepted",  "refused",      "valid instances", "two robots", "solved",

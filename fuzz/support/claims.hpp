@@ -33,8 +33,9 @@ enum class Claim : std::uint8_t {
   kClosedFormIsRight,       ///< unsafe times agree with distances and bisection
   kSightIsExact,            ///< line of sight agrees with whole numbers, both ways
   kTwinsAgree,              ///< fast path and plain twin give the same
+  kCompleteIsComplete,      ///< the complete planner solves exactly what an exhaustive search solves
 };
-inline constexpr std::size_t kClaims = 21;
+inline constexpr std::size_t kClaims = 22;
 std::string_view name(Claim claim);
 
 /// What an input turned out to be.

@@ -56,6 +56,7 @@ TEST(Claims, every_one_has_a_name_of_its_own) {
   EXPECT_EQ(names.size(), kClaims + kEvents);
   EXPECT_EQ(names.count(""), 0U);
   EXPECT_EQ(name(Claim::kTwinsAgree), "twins agree");
+  EXPECT_EQ(name(Claim::kCompleteIsComplete), "complete is complete");
   EXPECT_EQ(name(Event::kComparisons), "comparisons");
 }
 

@@ -23,7 +23,11 @@ std::string name_of(const Instance& instance, AgentIndex agent) {
 
 }  // namespace
 
-std::optional<InstanceError> find_beyond_complete(const Instance& instance) {
+std::optional<InstanceError> find_beyond_complete(const Instance& instance, const MotionRules& rules) {
+  if (!rules.is_plain()) {
+    return InstanceError{std::nullopt, std::nullopt, "headings, delays or inflation",
+                         "none for the complete planner"};
+  }
   if (!instance.obstacles.empty()) {
     return InstanceError{std::nullopt, std::size_t{0}, "the instance has dynamic obstacles",
                          "none for the complete planner"};

@@ -9,6 +9,7 @@
 
 #include "planner/complete/lacam.hpp"
 #include "planner/instance/instance.hpp"
+#include "planner/instance/motion_rules.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
@@ -32,7 +33,7 @@ struct CompleteResult {
 /// What lies beyond the model of plan_complete: a robot with a radius over 0.5, robots of
 /// different speeds, a dynamic obstacle. One line; none where it can be planned.
 /// REQUIRES: !find_error(instance).
-std::optional<InstanceError> find_beyond_complete(const Instance& instance);
+std::optional<InstanceError> find_beyond_complete(const Instance& instance, const MotionRules& rules = {});
 
 /// Plans all robots at once by unit moves between four neighbours, with waits.
 ///  (1) Solved exactly when there is such a plan, unless a limit strikes: time, steps, or

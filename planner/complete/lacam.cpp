@@ -19,6 +19,15 @@ constexpr NodeId kNoNode = UINT32_MAX;
 constexpr std::uint64_t kPatience = 8;
 constexpr std::uint64_t kLeastPatienceSteps = 256;
 
+/// Robots on so many of the free cells, or more, do not look for free cells first. With fewer
+/// that saves a tenth to a fifth of the flowtime (empty map of 32 x 32 cells, 320 to 880 robots);
+/// with 950 robots it costs twice the time of search.
+constexpr double kCrowdedShare = 0.9;
+
+bool is_crowded(const FreeGrid& grid, const Configuration& starts) {
+  return static_cast<double>(starts.size()) >= kCrowdedShare * static_cast<double>(grid.size());
+}
+
 /// Constraints on one step out of a configuration: this one and those of all ancestors in
 /// the configuration's tree of constraints. [LC22], section 3.
 struct ConstraintNode {
@@ -71,7 +80,7 @@ class Search {
          const Configuration& goals, const std::vector<RobotId>& longest_first, std::uint64_t seed)
       : grid_(grid),
         goals_(goals),
-        pibt_(grid, distances, seed),
+        pibt_(grid, distances, !is_crowded(grid, starts), seed),
         rank_(starts.size()),
         order_(longest_first) {
     for (std::uint32_t i = 0; i < longest_first.size(); ++i) rank_[longest_first[i]] = i;

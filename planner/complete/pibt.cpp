@@ -5,9 +5,10 @@
 
 namespace sipplab {
 
-Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, std::uint64_t seed)
+Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed)
     : grid_(grid),
       distances_(distances),
+      prefer_free_cells_(prefer_free_cells),
       random_(seed),
       robot_at_(grid.size(), kNoRobot),
       taken_by_(grid.size(), kNoRobot) {}
@@ -84,10 +85,12 @@ Pibt::Choice Pibt::begin_choice(RobotId robot) {
     ranks[at] = rank;
     choice.candidates[at] = cell;
   };
-  insert(kOwn << kTieBits, here);
+  insert(2 * kOwn << kTieBits, here);
   for (const CellId cell : grid_.neighbours(here)) {
     const std::uint32_t rank = distances_.is_nearer(robot, here, cell) ? kNearer : kFarther;
-    insert((rank << kTieBits) | static_cast<std::uint32_t>(ties & kTieMask), cell);
+    const bool is_second_choice = prefer_free_cells_ && robot_at_[cell] != kNoRobot;
+    insert((2 * rank + (is_second_choice ? 1 : 0)) << kTieBits | static_cast<std::uint32_t>(ties & kTieMask),
+           cell);
     ties >>= kTieBits;
   }
 

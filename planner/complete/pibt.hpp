@@ -35,8 +35,9 @@ enum class StepOutcome {
 
 class Pibt {
  public:
-  /// Both must outlive this. O(cells).
-  Pibt(const FreeGrid& grid, GoalDistances& distances, std::uint64_t seed);
+  /// Both must outlive this. `prefer_free_cells`: of cells that are equally near, robots try
+  /// those first that nobody is on. O(cells).
+  Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed);
 
   /// Moves each robot to a neighbour of its cell or leaves it where it is, so that
   ///  (1) no two robots end in one cell;
@@ -91,6 +92,7 @@ class Pibt {
 
   const FreeGrid& grid_;
   GoalDistances& distances_;
+  bool prefer_free_cells_;
   Random random_;
   const Configuration* now_ = nullptr;
   Configuration* next_ = nullptr;

@@ -30,7 +30,7 @@ class Ejection {
     }
     order_ = initial_order(options.order, lengths_s, random_);
     waiting_.assign(order_.begin(), order_.end());
-    result_.ssi_s = options.ssi_s;
+    result_.ssi_s = result_.ssi_kept_s = options.ssi_s;
   }
 
   PlanResult run() {

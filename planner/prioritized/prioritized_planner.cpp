@@ -73,7 +73,7 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   ReservationTable reservations(instance.map, largest_radius_cells(instance) + rules.inflate_distance_cells,
                                 rules.inflate_time_s);
   PlanResult result;
-  result.ssi_s = options.ssi_s;
+  result.ssi_s = result.ssi_kept_s = options.ssi_s;
   while (true) {
     Solution solution;
     solution.trajectories.resize(instance.agents.size());
@@ -120,7 +120,7 @@ PlanStatus status_of(LacamStatus status) {
 void plan_all_at_once(const Instance& instance, const PlannerOptions& options, PlanResult& result) {
   result.made_by = Method::kComplete;
   result.ssi_s = options.ssi_s;
-  if (find_beyond_complete(instance)) return;
+  if (find_beyond_complete(instance, options.rules)) return;
   CompleteOptions complete_options;
   complete_options.seed = options.seed;
   complete_options.ssi_s = options.ssi_s;
@@ -136,6 +136,8 @@ void plan_all_at_once(const Instance& instance, const PlannerOptions& options, P
   result.ssi_kept_s = complete.ssi_kept_s;
 }
 
+}  // namespace
+
 std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
                                                          const PlannerOptions& options) {
   if (options.rules.is_plain()) {
@@ -145,8 +147,6 @@ std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instanc
       instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
 }
 
-}  // namespace
-
 PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   const Clock::time_point begin = Clock::now();
   PlanResult result;
@@ -155,7 +155,6 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   } else {
     const std::unique_ptr<SingleAgentPlanner> search = single_agent_planner(instance, options);
     result = plan_prioritized(instance, options, *search);
-    result.ssi_kept_s = result.ssi_s;
     if (result.status != PlanStatus::kSolved && options.fallback == Fallback::kComplete) {
       plan_all_at_once(instance, options, result);
     }

@@ -3,6 +3,7 @@
 // and 4 (deterministic re-scheduling).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -56,13 +57,17 @@ struct PlanResult {
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 
-/// The same with what the options name: AA-SIPP, or SIPP where any_angle is false, with headings
-/// and delays where the rules ask for them; the complete planner as their method or as their
-/// fallback. What the latter does is counted as one more try, its steps as expansions and its
-/// configurations as generations.
+/// The planner for one robot that the options name: AA-SIPP, or SIPP where any_angle is false,
+/// with headings and delays where the rules ask for them. The instance must outlive it.
+std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
+                                                         const PlannerOptions& options);
+
+/// Plans by what the options name: single_agent_planner(), one robot after the other, or the
+/// complete planner as their method or as their fallback. What the latter does is counted as
+/// one more try, its steps as expansions and its configurations as generations.
 ///
-/// REQUIRES: !find_beyond_complete(instance) where the options name the complete planner;
-/// else there is no plan of it.
+/// REQUIRES: !find_beyond_complete(instance, options.rules) where the options name the complete
+/// planner; else there is no plan of it.
 PlanResult plan(const Instance& instance, const PlannerOptions& options);
 
 /// The options of a run that goes on after others: with what is left of their limits.

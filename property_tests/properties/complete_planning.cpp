@@ -27,18 +27,8 @@ CompleteOptions options_of(const PlanCase& plan_case) {
   return options;
 }
 
-/// The case with what lies beyond the model taken back to it.
-PlanCase within_model(PlanCase plan_case) {
-  plan_case.instance.obstacles.clear();
-  for (Agent& agent : plan_case.instance.agents) {
-    agent.radius_cells = std::min(agent.radius_cells, kDefaultRadiusCells);
-    agent.speed_cells_per_s = plan_case.instance.agents.front().speed_cells_per_s;
-  }
-  return plan_case;
-}
-
 PlanCase any_case_within_model() {
-  PlanCase plan_case = within_model(*any_case());
+  PlanCase plan_case = within_complete_model(*any_case());
   classify_case(plan_case);
   note_case(plan_case);
   return plan_case;

@@ -87,6 +87,8 @@ ResultRow any_row() {
   if (*rc::gen::arbitrary<bool>()) row.peak_memory_bytes = any_number();
   row.limit = *any_text();
   row.message = *any_text();
+  row.made_by = *rc::gen::element<std::string>("", "prioritized", "complete");
+  if (*rc::gen::arbitrary<bool>()) row.ssi_kept_s = *rc::gen::element(0.0, 1.0 / 3, kNoTimeLimit);
   return row;
 }
 
@@ -247,6 +249,8 @@ void check_row(const sqlite::Statement& select, const InstanceInfo& instance, co
   RC_ASSERT(optional_integer(select, column++) == row.peak_memory_bytes);
   RC_ASSERT(select.optional_text(column++).value_or("") == row.limit);
   RC_ASSERT(select.optional_text(column++).value_or("") == row.message);
+  RC_ASSERT(select.optional_text(column++).value_or("") == row.made_by);
+  RC_ASSERT(select.optional_real(column++) == row.ssi_kept_s);
 }
 
 void check_case(Database& database, const std::string& uuid, std::size_t place, const Recorded& recorded) {
@@ -255,7 +259,8 @@ void check_case(Database& database, const std::string& uuid, std::size_t place, 
       database.connection(),
       "SELECT content_hash, name, instance.robots, width_cells, height_cells, blocked_cells, result.status, "
       "planning_time_ns, makespan_s, flowtime_s, tries, expansions, generations, plan_hash, valid, "
-      "violations, min_clearance_cells, peak_memory_bytes, limit_struck, message FROM result "
+      "violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s FROM "
+      "result "
       "JOIN instance ON instance.id = instance_id WHERE cell_id = (SELECT cell.id FROM cell "
       "JOIN run ON run.id = run_id WHERE uuid = ? ORDER BY cell.id LIMIT 1 OFFSET ?) "
       "ORDER BY position, repetition",

@@ -25,6 +25,15 @@ std::vector<Arrangement> neighbours(const GridMap& map, const Arrangement& from)
 
 }  // namespace
 
+PlanCase within_complete_model(PlanCase plan_case) {
+  plan_case.instance.obstacles.clear();
+  for (Agent& agent : plan_case.instance.agents) {
+    agent.radius_cells = std::min(agent.radius_cells, kDefaultRadiusCells);
+    agent.speed_cells_per_s = plan_case.instance.agents.front().speed_cells_per_s;
+  }
+  return plan_case;
+}
+
 bool pebble_search_is_small(const Instance& instance) {
   const std::size_t free_cells = instance.map.cell_count() - instance.map.blocked_count();
   double arrangements = 1;

@@ -4,9 +4,13 @@
 // first one first, so that nothing more can be reached by that, unless a closed ring turns.
 #pragma once
 
-#include "planner/instance/instance.hpp"
+#include "property_tests/support/plan_case.hpp"
 
 namespace sipplab {
+
+/// The case, with what lies beyond the complete planner taken back to what it can plan: no
+/// obstacles, radii up to 0.5, the speed of the first robot.
+PlanCase within_complete_model(PlanCase plan_case);
 
 /// Arrangements that pebble_search_is_small accepts: some milliseconds.
 inline constexpr double kMostArrangements = 6'000;
