@@ -70,8 +70,8 @@ Suite density() {
   return suite;
 }
 
-/// Robots of four sizes and three speeds, with and without turning, at densities from sparse
-/// to crowded for bodies wider than a cell.
+/// Robots of four sizes and three speeds, with and without turning, and two obstacles that
+/// cross the map, at densities from sparse to crowded for bodies wider than a cell.
 Suite mixed() {
   Suite suite;
   suite.name = "mixed";
@@ -83,7 +83,7 @@ Suite mixed() {
   MotionRules turning;
   turning.turns = true;
   open.planners = {{true, 3, {}}, {true, 3, turning}, {false, 3, turning}};
-  open.bodies = {{0.3, 0.5, 0.9, 1.4}, {0.5, 1, 2}, true};
+  open.bodies = {{0.3, 0.5, 0.9, 1.4}, {0.5, 1, 2}, true, 2};
   SuiteBlock shelves{kWarehouse, {8, 16, 24}, {0, 5}, {kNone, kDeterministic}};
   shelves.planners = open.planners;
   shelves.bodies = open.bodies;

@@ -26,6 +26,7 @@ struct Bodies {
   std::vector<double> radii_cells = {kDefaultRadiusCells};
   std::vector<double> speeds_cells_per_s = {kDefaultSpeedCellsPerS};
   bool headings = false;
+  std::size_t obstacles = 0;
 
   friend bool operator==(const Bodies&, const Bodies&) = default;
 };

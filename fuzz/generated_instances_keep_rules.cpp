@@ -35,6 +35,7 @@ GeneratorOptions read_options(std::istringstream& words) {
     if (word == "or-radius") words >> options.radii_cells.emplace_back();
     if (word == "or-speed") words >> options.speeds_cells_per_s.emplace_back();
     if (word == "headings") options.headings = true;
+    if (word == "obstacles") words >> options.obstacles;
   }
   return options;
 }
@@ -54,6 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const GeneratorOptions options = read_options(words);
   if (spec->kind == MapSpec::Kind::kFile) return -1;
   if (std::int64_t{spec->width} * spec->height > kMostCells || options.agents > kMostAgents) return -1;
+  if (options.obstacles > kMostAgents) return -1;
   const auto instance = generate_instance(*spec, options);
   if (!instance) {
     require_one_line(instance.error());

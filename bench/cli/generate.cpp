@@ -25,6 +25,9 @@ namespace {
 /// More files than this in one folder are a slip of the finger.
 constexpr std::uint64_t kMaxInstances = 100'000;
 
+/// More of them would be a wall.
+constexpr std::uint64_t kMaxObstacles = 1'000;
+
 struct GenerateArguments {
   std::string map = "warehouse";
   std::uint64_t agents = 0;
@@ -34,6 +37,7 @@ struct GenerateArguments {
   std::vector<std::string> speeds;
   std::vector<std::string> rotation_speeds;
   bool headings = false;
+  std::uint64_t obstacles = 0;
   std::string format = "xml";
   std::string folder;
   bool json = false;
@@ -65,6 +69,7 @@ GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint
   replace_default(arguments.speeds, options.speeds_cells_per_s);
   replace_default(arguments.rotation_speeds, options.rotation_speeds);
   options.headings = arguments.headings;
+  options.obstacles = arguments.obstacles;
   return options;
 }
 
@@ -126,6 +131,9 @@ Command add_generate_command(CLI::App& program) {
   add_values("--radius", arguments->radii, "cells; drawn from these for each robot; default 0.5");
   add_values("--speed", arguments->speeds, "cells per second; default 1");
   add_values("--rotation-speed", arguments->rotation_speeds, "half turns per second; default 1");
+  command->add_option("--obstacles", arguments->obstacles, "moving obstacles that cross the map")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxObstacles))
+      ->capture_default_str();
   command->add_flag("--headings", arguments->headings, "draw start and goal headings and rotation speeds");
   command->add_option("--format", arguments->format, "xml, or movingai (.map and .scen)")
       ->check(CLI::IsMember({"xml", "movingai"}))

@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_after(std::string_view text, std::string_vie
 /// instance's name behind its index.
 std::string body_flags(std::string_view name) {
   std::string flags;
-  for (const std::string_view word : {"radius", "speed"}) {
+  for (const std::string_view word : {"radius", "speed", "obstacles"}) {
     const std::size_t at = name.find(fmt::format(" {}:", word));
     if (at == std::string_view::npos) continue;
     const std::string_view values = name.substr(at + word.size() + 2);

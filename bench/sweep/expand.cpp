@@ -78,7 +78,7 @@ std::optional<std::string> find_beyond_complete(const ExpandedSweep& sweep) {
     const PlannerOptions& options = named.parameters.options;
     if (options.method != Method::kComplete && options.fallback != Fallback::kComplete) continue;
     for (const PreparedInstance& prepared : sweep.sets[named.parameters.set].instances) {
-      const std::optional<InstanceError> error = find_beyond_complete(prepared.instance, sweep_case.options.rules);
+      const std::optional<InstanceError> error = find_beyond_complete(prepared.instance, options.rules);
       if (error) return prepared.row.name + ": " + error->what + ", expected " + error->expected;
     }
   }

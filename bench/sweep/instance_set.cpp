@@ -110,7 +110,7 @@ std::optional<std::string> load_files(const fs::path& folder, const std::vector<
   return std::nullopt;
 }
 
-/// " radius:0.3,1.4 speed:1,2 headings"; nothing for robots as they usually are.
+/// " radius:0.3,1.4 speed:1,2 headings obstacles:2"; nothing for robots as they usually are.
 std::string words_for(const Bodies& bodies) {
   const Bodies usual;
   std::string words;
@@ -121,6 +121,7 @@ std::string words_for(const Bodies& bodies) {
   if (bodies.radii_cells != usual.radii_cells) add(" radius:", bodies.radii_cells);
   if (bodies.speeds_cells_per_s != usual.speeds_cells_per_s) add(" speed:", bodies.speeds_cells_per_s);
   if (bodies.headings) words += " headings";
+  if (bodies.obstacles > 0) words += fmt::format(" obstacles:{}", bodies.obstacles);
   return words;
 }
 
@@ -186,6 +187,7 @@ Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std
     options.radii_cells = bodies.radii_cells;
     options.speeds_cells_per_s = bodies.speeds_cells_per_s;
     options.headings = bodies.headings;
+    options.obstacles = bodies.obstacles;
     Expected<Instance, std::string> instance = generate_instance(*spec, options);
     if (!instance) return Unexpected{instance.error()};
     set.instances.push_back(prepare(

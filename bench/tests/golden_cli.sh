@@ -86,10 +86,32 @@ expect 1 plan --instance swap.xml --fallback complete
 says '^status      failed'
 sed 's/<agent /<agent movespeed="2" /' bay.xml >fast.xml
 refused 'speed 1, expected the speed of agent 0, 2, for the complete planner' plan --instance fast.xml --fallback complete
+refused 'headings, delays or inflation, expected none' plan --instance bay.xml --fallback complete --turns
 refused "'greedy', expected none or complete" plan --instance bay.xml --fallback greedy
 refused "'greedy', expected prioritized or complete" plan --instance bay.xml --method greedy
 
 mkdir mixed && cp fast.xml mixed/0.xml
+
+# --- headings ---------------------------------------------------------------------
+
+# Half a turn, three cells, a quarter turn back.
+printf '<root><agents number="1"><agent start.x="0" start.y="0" goal.x="3" goal.y="0" start.heading="180" goal.heading="90"/></agents><map><grid width="4" height="1"><row>0 0 0 0</row></grid></map><algorithm><planforturns>true</planforturns></algorithm></root>' >turn.xml
+expect 0 plan --instance turn.xml --json
+says '"makespan": 4.5,'
+says '"turn_to": 90'
+says '"turns": true'
+expect 0 plan --instance turn.xml --wait-before-move 0.25 -o turn.json
+expect 0 validate --instance turn.xml --solution turn.json
+says '^valid: makespan 4.750 s'
+expect 0 plan --instance turn.xml --no-turns -o straight.csv
+expect 1 validate --instance turn.xml --solution straight.csv
+says 'stands for 0 s from time 0 on, turns and delays take 1 s'
+expect 0 validate --instance turn.xml --solution straight.csv --no-turns
+sed 's/heading="180"/heading="400"/' turn.xml >turn_too_far.xml
+refused "turn_too_far.xml:1: start.heading '400'" plan --instance turn_too_far.xml
+refused 'inflate-time' plan --instance turn.xml --inflate-time -1
+expect 0 generate --map empty:16x16 --agents 6 --radius 0.3,1.4 --speed 0.5,2 --headings --obstacles 1 -o bodies
+expect 0 plan --instance bodies/0.xml --turns --inflate-distance 0.125 --inflate-time 0.25
 
 # --- the history ------------------------------------------------------------------
 

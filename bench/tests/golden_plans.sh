@@ -11,12 +11,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
 
-# "MAP AGENTS SEED | OPTIONS" in, the same with "| STATUS HASH" out.
+# "MAP AGENTS SEED [FLAGS OF generate] | OPTIONS" in, the same with "| STATUS HASH" out.
 plan_line() {
-  local instance=$1 options=$2 map agents seed code=0
-  read -r map agents seed <<<"$instance"
+  local instance=$1 options=$2 map agents seed bodies code=0
+  read -r map agents seed bodies <<<"$instance"
+  read -ra bodies <<<"$bodies"
   read -ra options <<<"$options"
-  "$sipplab" generate --map "$map" --agents "$agents" --seed "$seed" -o "$work/instance" >/dev/null
+  "$sipplab" generate --map "$map" --agents "$agents" --seed "$seed" "${bodies[@]}" -o "$work/instance" >/dev/null
   "$sipplab" plan --instance "$work/instance/0.xml" "${options[@]}" --json >"$work/plan.json" || code=$?
   if [ "$code" -gt 1 ]; then
     printf '%s | %s | exit code %d\n' "$instance" "${options[*]}" "$code"

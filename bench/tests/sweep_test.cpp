@@ -196,7 +196,7 @@ TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
   ASSERT_EQ(sweep->sets.size(), 1u);
   EXPECT_EQ(sweep->sets[0].environment, "empty-mixed");
   EXPECT_EQ(sweep->sets[0].instances[0].row.name,
-            "empty:24x24 agents:12 seed:1 index:0 radius:0.3,0.5,0.9,1.4 speed:0.5,1,2 headings");
+            "empty:24x24 agents:12 seed:1 index:0 radius:0.3,0.5,0.9,1.4 speed:0.5,1,2 headings obstacles:2");
   ASSERT_EQ(sweep->cases.size(), 3u);
   EXPECT_EQ(case_row(sweep->cases[0].parameters).planner, "aa-sipp");
   EXPECT_EQ(case_row(sweep->cases[2].parameters).planner, "sipp+turns");

@@ -176,21 +176,68 @@ double draw(const std::vector<double>& values, Random& random) {
 /// Whole degrees.
 double draw_heading_deg(Random& random) { return static_cast<double>(random.below(360)); }
 
-/// Robots that are nowhere yet.
+/// Robots that are nowhere yet. One thing after the other is drawn for all of them, so that
+/// what is asked of speeds leaves the sizes alone.
 std::vector<Agent> draw_bodies(const GeneratorOptions& options) {
   Random random = instance_stream(options.seed, options.index, StreamUse::kBodies);
   std::vector<Agent> agents(options.agents);
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    Agent& agent = agents[i];
-    agent.id = std::to_string(i);
-    agent.radius_cells = draw(options.radii_cells, random);
-    agent.speed_cells_per_s = draw(options.speeds_cells_per_s, random);
-    if (!options.headings) continue;
+  for (std::size_t i = 0; i < agents.size(); ++i) agents[i].id = std::to_string(i);
+  for (Agent& agent : agents) agent.radius_cells = draw(options.radii_cells, random);
+  for (Agent& agent : agents) agent.speed_cells_per_s = draw(options.speeds_cells_per_s, random);
+  if (!options.headings) return agents;
+  for (Agent& agent : agents) {
     agent.rotation_speed = draw(options.rotation_speeds, random);
     agent.start_heading_deg = draw_heading_deg(random);
     if (random.below(2) == 0) agent.goal_heading_deg = draw_heading_deg(random);
   }
   return agents;
+}
+
+/// A cell so far beyond one of the four borders that nobody on the map is touched there.
+Cell draw_cell_outside(const GridMap& map, std::int32_t far, Random& random) {
+  const auto draw_below = [&random](std::int32_t bound) {
+    return static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(bound)));
+  };
+  switch (random.below(4)) {
+    case 0:
+      return {-far, draw_below(map.height())};
+    case 1:
+      return {map.width() - 1 + far, draw_below(map.height())};
+    case 2:
+      return {draw_below(map.width()), -far};
+    default:
+      return {draw_below(map.width()), map.height() - 1 + far};
+  }
+}
+
+std::vector<DynamicObstacle> draw_obstacles(const GridMap& map, const GeneratorOptions& options) {
+  constexpr std::uint64_t kMostWaitS = 16;
+  constexpr std::uint64_t kMostCellsOnTheWay = 3;
+  Random random = instance_stream(options.seed, options.index, StreamUse::kObstacles);
+  const double widest = *std::max_element(options.radii_cells.begin(), options.radii_cells.end());
+  std::vector<DynamicObstacle> obstacles(options.obstacles);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    DynamicObstacle& obstacle = obstacles[i];
+    obstacle.id = std::to_string(i);
+    obstacle.radius_cells = draw(options.radii_cells, random);
+    const double speed_cells_per_s = draw(options.speeds_cells_per_s, random);
+    const auto far = static_cast<std::int32_t>(std::ceil(obstacle.radius_cells + widest)) + 1;
+    Trajectory& trajectory = obstacle.trajectory;
+    trajectory.start = draw_cell_outside(map, far, random);
+    const auto wait_s = static_cast<double>(1 + random.below(kMostWaitS));
+    trajectory.motions.push_back({0, wait_s, trajectory.start, trajectory.start});
+    const auto go = [&](Cell to) {
+      const Cell from = trajectory.end();
+      if (to == from) return;
+      const double begin_s = trajectory.arrival_s();
+      trajectory.motions.push_back({begin_s, begin_s + distance(from, to) / speed_cells_per_s, from, to});
+    };
+    for (std::uint64_t left = 1 + random.below(kMostCellsOnTheWay); left > 0; --left) {
+      go(map.cell(static_cast<std::size_t>(random.below(map.cell_count()))));
+    }
+    go(draw_cell_outside(map, far, random));
+  }
+  return obstacles;
 }
 
 }  // namespace
@@ -224,6 +271,7 @@ Expected<Instance, std::string> generate_instance(const GridMap& map, const Gene
     }
   }
   for (const SizeClass& size : classes) part_goals_from_starts(size, instance.agents);
+  instance.obstacles = draw_obstacles(map, options);
   return instance;
 }
 

@@ -45,13 +45,16 @@ struct GeneratorOptions {
   std::vector<double> rotation_speeds = {kDefaultRotationSpeed};
   /// Draw start headings in whole degrees, and goal headings for every other robot.
   bool headings = false;
+  /// Moving obstacles of radii and speeds drawn from the same values: each comes from beyond
+  /// the border after a while, crosses the map by way of a few cells, and leaves for good.
+  std::size_t obstacles = 0;
 };
 
 /// Robots with distinct starts and distinct goals, bodies not overlapping, each on the
 /// map's largest 4-connected component for its radius, so that every goal can be
 /// reached. A robot's goal differs from its start where it can exchange goals with another
-/// robot of its size, or is alone on the map. Sizes, speeds and headings do not change
-/// where robots of one size are.
+/// robot of its size, or is alone on the map. Speeds, headings and obstacles do not change
+/// where robots are.
 /// Errors: one line when so many robots do not fit.
 Expected<Instance, std::string> generate_instance(const GridMap& map, const GeneratorOptions& options);
 

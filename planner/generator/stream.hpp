@@ -8,9 +8,9 @@
 
 namespace sipplab {
 
-/// What the numbers are for: maps, places of robots, and their bodies (sizes, speeds,
-/// headings) have streams of their own in each instance.
-enum class StreamUse : std::uint64_t { kRobots = 1, kMap = 2, kBodies = 3 };
+/// What the numbers are for: maps, places of robots, their bodies (sizes, speeds, headings)
+/// and moving obstacles have streams of their own in each instance.
+enum class StreamUse : std::uint64_t { kRobots = 1, kMap = 2, kBodies = 3, kObstacles = 4 };
 
 /// Seed, index and use are each scrambled before they are joined, because Random
 /// would give overlapping states to seeds that differ by a multiple of the step of

@@ -51,13 +51,15 @@ class HeadingCheck {
     if (!motion.is_turn() || !rules_.turns) return;
     const Vec2 towards = facing(*motion.turn_to_deg);
     const double due_s = turn_s(angle_deg(facing_, towards));
-    const double short_s = due_s - (motion.end_s - motion.begin_s);
-    if (short_s > time_tolerance_s(motion.end_s)) {
+    const double duration_s = motion.end_s - motion.begin_s;
+    const double short_s = due_s - duration_s;
+    const bool too_short = short_s > time_tolerance_s(motion.end_s);
+    if (too_short) {
       report(ViolationKind::kStandingTime, motion.begin_s, short_s,
-             fmt::format("turns to heading {:.6g} in {} s, not {} s", *motion.turn_to_deg,
-                         motion.end_s - motion.begin_s, due_s));
+             fmt::format("turns to heading {:.6g} in {:.6g} s at time {:.6g}, not in {:.6g} s",
+                         *motion.turn_to_deg, duration_s, motion.begin_s, due_s));
     }
-    needed_s_ += due_s;
+    needed_s_ += too_short ? duration_s : due_s;  // each mistake is reported once
     facing_ = towards;
     states_a_turn_ = true;
   }
@@ -88,8 +90,8 @@ class HeadingCheck {
       needed_s_ += turn_s(off_deg);
     } else if (off_deg > kHeadingToleranceDeg) {
       report(ViolationKind::kHeading, time_s, off_deg,
-             fmt::format("{} with heading {:.6g} while it faces {:.6g}", what, shown_deg(direction),
-                         shown_deg(facing_)));
+             fmt::format("{} at time {:.6g} with heading {:.6g} while it faces {:.6g}", what, time_s,
+                         shown_deg(direction), shown_deg(facing_)));
     }
     facing_ = direction;
   }
@@ -98,7 +100,8 @@ class HeadingCheck {
     const double short_s = needed_s_ - (until_s - stands_since_s_);
     if (short_s <= time_tolerance_s(until_s)) return;
     report(ViolationKind::kStandingTime, stands_since_s_, short_s,
-           fmt::format("stands for {} s, turns and delays take {} s", until_s - stands_since_s_, needed_s_));
+           fmt::format("stands for {:.6g} s from time {:.6g} on, turns and delays take {:.6g} s",
+                       until_s - stands_since_s_, stands_since_s_, needed_s_));
   }
 
   void report(ViolationKind kind, double time_s, double error, const std::string& what) {

@@ -24,6 +24,7 @@ GeneratorOptions any_options(std::size_t most_agents) {
   options.speeds_cells_per_s = {*rc::gen::element(1.0, 0.5, 2.0), 1.0};
   options.rotation_speeds = {0.5, 2};
   options.headings = *rc::gen::arbitrary<bool>();
+  options.obstacles = *rc::gen::inRange<std::size_t>(0, 3);
   return options;
 }
 
@@ -51,7 +52,9 @@ int main() {
     RC_ASSERT(!find_error(*instance));
     RC_ASSERT(!find_unreachable_goal(*instance));
     RC_CLASSIFY(options.radii_cells.back() > 0.5, "wider than a cell");
+    RC_ASSERT(instance->obstacles.size() == options.obstacles);
     RC_CLASSIFY(options.radii_cells.size() > 1, "several sizes");
+    RC_CLASSIFY(options.obstacles > 0, "moving obstacles");
   });
 
   passed &= property("no robot is at its goal already where two fit on the map", [] {

@@ -137,16 +137,27 @@ TEST(GeneratorInstances, BodiesAreDrawnFromWhatIsAskedFor) {
   EXPECT_GT(whatever, 5u);
   EXPECT_LT(whatever, 35u);
 
-  // Speeds and headings leave the places alone.
+  // Speeds, headings and obstacles leave the places alone.
   options.speeds_cells_per_s = {1};
   options.headings = false;
+  options.obstacles = 3;
   const Expected<Instance, std::string> plain = generate_instance(spec_of("empty:32x32"), options);
   ASSERT_TRUE(plain);
+  EXPECT_FALSE(find_error(*plain));
+  ASSERT_EQ(plain->obstacles.size(), 3u);
+  for (const DynamicObstacle& obstacle : plain->obstacles) {
+    EXPECT_FALSE(plain->map.contains(obstacle.trajectory.start));
+    EXPECT_FALSE(plain->map.contains(obstacle.trajectory.end()));
+    EXPECT_GE(obstacle.trajectory.motions.size(), 2u);
+  }
   std::set<double> plain_radii;
   for (const Agent& agent : plain->agents) {
     plain_radii.insert(agent.radius_cells);
     EXPECT_EQ(agent.start_heading_deg, 0);
     EXPECT_FALSE(agent.goal_heading_deg);
+    const auto position = static_cast<std::size_t>(&agent - plain->agents.data());
+    EXPECT_EQ(agent.start, instance->agents[position].start);
+    EXPECT_EQ(agent.goal, instance->agents[position].goal);
   }
   EXPECT_EQ(plain_radii, radii);
 

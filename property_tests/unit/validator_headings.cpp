@@ -91,6 +91,12 @@ TEST(ValidatorHeadings, FindsEachMistake) {
          robot.delay(1, -0.25);
        },
        ViolationKind::kStandingTime, 0, 0.25},
+      {"too fast a turn, and then a wait",
+       [](TurningRobot& robot) {
+         robot.motions()[0].end_s = 0.75;
+         robot.motions().insert(robot.motions().begin() + 1, {0.75, 1, {0, 4}, {0, 4}});
+       },
+       ViolationKind::kStandingTime, 0, 0.25},
       {"another start heading", [](TurningRobot& robot) { robot.instance.agents[0].start_heading_deg = 170; },
        ViolationKind::kHeading, -1, 0},
       {"a turn in the wrong direction", [](TurningRobot& robot) { robot.motions()[2].turn_to_deg = 270; },
