@@ -58,6 +58,9 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   }
   request.connectedness = arguments.connectedness;
   request.any_angle = arguments.any_angle;
+  if (arguments.best || arguments.improve.budget) {
+    request.refinement = arguments.improve.refinement(arguments.best);
+  }
   request.count = arguments.count;
   if (arguments.time_limit) request.time_limit_s = parse_time_limit_s(*arguments.time_limit);
   request.max_expansions = arguments.max_expansions;
@@ -271,7 +274,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
             return bench::find_suite(text) != nullptr
                        ? std::string()
                        : in_quotes(text) +
-                             ", expected smoke, gate, density, paper, paper-quick or adversarial";
+                             ", expected smoke, gate, density, paper, paper-quick, adversarial or anytime";
           })
           ->capture_default_str();
   CLI::Option* folders =
@@ -295,6 +298,8 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(2, 5));
   add_any_angle_flag(command, arguments.any_angle);
+  command.add_flag("--best", arguments.best, "as `sipplab plan --best`, within the time limit");
+  arguments.improve.add_to(command);
   command.add_option("--count", arguments.count, "instances per case")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   command.add_option("--time-limit", arguments.time_limit, "wall-clock seconds per instance, or inf")

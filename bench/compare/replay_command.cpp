@@ -41,7 +41,7 @@ std::string planner_flags(const db::CaseInfo& parameters) {
   if (!std::isinf(parameters.time_limit_s)) {
     flags += fmt::format(" --time-limit {}", format_ssi(parameters.time_limit_s));
   }
-  return flags;
+  return flags + refinement_flags(refinement_suffix_of(parameters.planner));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct SweepRequest {
   std::vector<InitialOrder> orders;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
+  std::optional<Refinement> refinement;
   std::optional<std::uint64_t> count;
   std::optional<double> time_limit_s;
   std::optional<std::uint64_t> max_expansions;

@@ -15,7 +15,7 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
-  return sweep_case.options.any_angle ? "aa-sipp" : "sipp";
+  return (sweep_case.options.any_angle ? "aa-sipp" : "sipp") + refinement_suffix(sweep_case.refinement);
 }
 
 }  // namespace
@@ -24,9 +24,16 @@ bool is_another_program(std::string_view planner) {
   return planner.substr(0, kProgramPrefix.size()) == kProgramPrefix;
 }
 
+std::string_view refinement_suffix_of(std::string_view planner) {
+  const std::size_t plus = planner.find('+');
+  if (is_another_program(planner) || plus == std::string_view::npos) return {};
+  return planner.substr(plus);
+}
+
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
   if (is_another_program(planner)) return std::string(planner);
-  return fmt::format("{}-{}", any_angle ? "any-angle" : "grid", 1 << connectedness);
+  return fmt::format("{}-{}{}", any_angle ? "any-angle" : "grid", 1 << connectedness,
+                     refinement_suffix_of(planner));
 }
 
 std::string planner_name(const SweepCase& sweep_case) {

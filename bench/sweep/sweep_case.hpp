@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/refined_plan.hpp"
 #include "db/records.hpp"
 #include "planner/prioritized/options.hpp"
 
@@ -20,14 +21,19 @@ struct SweepCase {
   double radius_cells = kDefaultRadiusCells;
   double speed_cells_per_s = kDefaultSpeedCellsPerS;
   PlannerOptions options;
-  std::size_t set = 0;       ///< which InstanceSet of the sweep
-  std::string command = {};  ///< name of the CommandPlanner that plans it; empty: this planner
+  std::size_t set = 0;         ///< which InstanceSet of the sweep
+  Refinement refinement = {};  ///< what comes after the method
+  std::string command = {};    ///< name of the CommandPlanner that plans it; empty: this planner
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
-/// "cmd:NAME": another program, which `planner` of the history is named after.
+/// "any-angle-8+improve:300i,flowtime": improved. "cmd:NAME": another program, which `planner` of the history
+/// is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);
+
+/// "+improve:300i,flowtime" of "aa-sipp+improve:300i,flowtime"; empty where there is none.
+std::string_view refinement_suffix_of(std::string_view planner);
 
 /// Whether `planner` of the history is another program.
 bool is_another_program(std::string_view planner);
