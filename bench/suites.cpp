@@ -161,11 +161,35 @@ Suite dense() {
   return suite;
 }
 
+/// Iterations of the anytime suite: some seconds for each instance, and the greater part of
+/// what half a minute gains.
+constexpr std::uint64_t kAnytimeIterations = 2000;
+
+/// What goes beyond the paper: dense cells of both maps, all methods in turn, then improvement.
+/// Counted in iterations: the same plans on every machine, and a curve over time beside them.
+Suite anytime() {
+  Suite suite;
+  suite.name = "anytime";
+  suite.purpose = "plans from all methods, improved: curves of flowtime and makespan over time";
+  suite.instances = 10;
+  suite.time_limit_s = kDefaultTimeLimitS;
+  SuiteBlock warehouse{kWarehouse, {96, 128, 160, 192}, {5}, {kDeterministic}};
+  warehouse.planners = {kPaperPlanner};
+  warehouse.refinement.best = true;
+  warehouse.refinement.improve = ImproveBudget{};
+  warehouse.refinement.improve->iterations = kAnytimeIterations;
+  SuiteBlock empty = warehouse;
+  empty.map = kEmpty;
+  empty.robots = {128, 192, 256};
+  suite.blocks = {warehouse, empty};
+  return suite;
+}
+
 }  // namespace
 
 const std::vector<Suite>& suites() {
-  static const std::vector<Suite> all = {smoke(), gate(),        density(),     mixed(),
-                                         paper(), paper_quick(), adversarial(), dense()};
+  static const std::vector<Suite> all = {smoke(),       gate(),        density(), mixed(),  paper(),
+                                         paper_quick(), adversarial(), dense(),   anytime()};
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/sweep/refined_plan.hpp"
 #include "planner/instance/agent.hpp"
 #include "planner/prioritized/options.hpp"
 
@@ -38,6 +39,7 @@ struct SuiteBlock {
   std::vector<Rescheduling> reschedules;
   std::vector<InitialOrder> orders = {InitialOrder::kShortestFirst};
   std::vector<PlannerMode> planners = {PlannerMode{}};
+  Refinement refinement = {};  ///< what comes after the method
   /// Seeds tried on each instance where the re-scheduling or the order is random.
   std::uint64_t random_seeds = 1;
   Bodies bodies = {};
@@ -57,7 +59,7 @@ struct Suite {
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, mixed, paper, paper-quick, adversarial, dense.
+/// smoke, gate, density, mixed, paper, paper-quick, adversarial, dense, anytime.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

@@ -239,6 +239,26 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                  row.min_clearance_cells, row.peak_memory_bytes, null_if_empty(row.limit),
                  null_if_empty(row.message), null_if_empty(row.made_by), row.ssi_kept_s);
     if (auto done = insert->run(); !done) return done;
+    if (row.progress.empty()) continue;
+    if (auto done = write_progress(cell_id, *instance_key, row); !done) return done;
+  }
+  return Done{};
+}
+
+Result<Done> RunRecorder::write_progress(std::int64_t cell_id, std::int64_t instance_id,
+                                         const ResultRow& row) {
+  auto insert = Statement::prepare(
+      database_.connection(),
+      "INSERT INTO progress (cell_id, instance_id, position, repetition, step, iteration, elapsed_ns, "
+      "flowtime_s, makespan_s, flowtime_bound_s, makespan_bound_s) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "writing how a plan got better");
+  if (!insert) return Unexpected{insert.error()};
+  std::int64_t step = 0;
+  for (const ProgressRow& point : row.progress) {
+    insert->bind(cell_id, instance_id, row.position, row.repetition, step++, point.iteration,
+                 point.elapsed_ns, point.flowtime_s, point.makespan_s, point.flowtime_bound_s,
+                 point.makespan_bound_s);
+    if (auto done = insert->run(); !done) return done;
   }
   return Done{};
 }

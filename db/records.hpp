@@ -114,6 +114,16 @@ enum class ResultStatus {
 /// "solved", "failed", "limit", "invalid".
 std::string_view name(ResultStatus status);
 
+/// A point of the curve along which a plan was improved.
+struct ProgressRow {
+  std::int64_t iteration = 0;
+  std::int64_t elapsed_ns = 0;  ///< wall clock since planning began
+  double flowtime_s = 0;
+  double makespan_s = 0;
+  double flowtime_bound_s = 0;  ///< no plan can fall below
+  double makespan_bound_s = 0;
+};
+
 /// What one planning of one instance gave.
 struct ResultRow {
   /// Place of the instance in its set, counted from 0. A set may hold one instance
@@ -135,9 +145,10 @@ struct ResultRow {
   std::optional<std::int64_t> peak_memory_bytes;
   /// Which limit struck: "time", "expansions", "restarts", "memory"; else empty.
   std::string limit;
-  std::string message;               ///< the first violation in words; else empty
-  std::string made_by;               ///< "prioritized", "complete"; empty: another program
-  std::optional<double> ssi_kept_s;  ///< may be infinite
+  std::string message;                     ///< the first violation in words; else empty
+  std::string made_by;                     ///< "prioritized", "complete"; empty: another program
+  std::optional<double> ssi_kept_s;        ///< may be infinite
+  std::vector<ProgressRow> progress = {};  ///< of improvement, in order of time; else empty
 };
 
 enum class RunStatus {

@@ -61,6 +61,9 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   request.turns = arguments.turns;
   if (arguments.method) request.method = parse_method(*arguments.method);
   if (arguments.fallback) request.fallback = parse_fallback(*arguments.fallback);
+  if (arguments.best || arguments.improve.budget) {
+    request.refinement = arguments.improve.refinement(arguments.best);
+  }
   request.count = arguments.count;
   if (arguments.time_limit) request.time_limit_s = parse_time_limit_s(*arguments.time_limit);
   request.max_expansions = arguments.max_expansions;
@@ -274,7 +277,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                                         ? std::string()
                                         : in_quotes(text) +
                                               ", expected smoke, gate, density, mixed, paper, paper-quick, "
-                                              "adversarial or dense";
+                                              "adversarial, dense or anytime";
                            })
                            ->capture_default_str();
   CLI::Option* folders =
@@ -300,6 +303,8 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   add_any_angle_flag(command, arguments.any_angle);
   add_turns_flag(command, arguments.turns);
   add_method_flags(command, arguments.method, arguments.fallback);
+  command.add_flag("--best", arguments.best, "as `sipplab plan --best`, within the time limit");
+  arguments.improve.add_to(command);
   command.add_option("--count", arguments.count, "instances per case")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   command.add_option("--time-limit", arguments.time_limit, "wall-clock seconds per instance, or inf")

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/planner_flags.hpp"
 #include "bench/external/command_planner.hpp"
 
 namespace sipplab::cli {
@@ -34,6 +35,8 @@ struct BenchArguments {
   std::optional<std::string> time_limit;
   std::optional<std::uint64_t> max_expansions;
   std::optional<std::uint64_t> max_restarts;
+  bool best = false;
+  ImproveFlags improve;
   std::uint64_t seed = 1;
   std::int64_t repetitions = 1;
   std::optional<std::string> planner;

@@ -181,6 +181,9 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.best && !arguments.planner.has_time_limit()) options.time_limit_s = kBestTimeLimitS;
   bench::Refinement refinement = arguments.improve.refinement(arguments.best);
   refinement.longer_ssi_s = arguments.planner.longer_ssi_s();
+  if (const auto line = bench::find_beyond_refinement(options, refinement)) {
+    return fail(kBadUsage, "sipplab: " + *line);
+  }
   const RefinedPlan outcome = bench::plan_refined(instance, options, refinement);
   const bool is_solved = outcome.plan.status == PlanStatus::kSolved;
   if (is_solved) {

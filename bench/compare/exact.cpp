@@ -6,7 +6,7 @@ namespace sipplab::bench {
 namespace {
 
 bool clock_struck(const db::ResultRow& row) {
-  return row.status == db::ResultStatus::kLimit && row.limit == "time";
+  return row.limit == "time";
 }
 
 std::string plan_text(const db::ResultRow& row) {

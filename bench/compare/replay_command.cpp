@@ -46,7 +46,6 @@ std::string planner_flags(const db::CaseInfo& parameters) {
                   parameters.reschedule, parameters.order, parameters.connectedness);
   if (!parameters.any_angle) flags += " --no-any-angle";
   if (is_complete_planner(parameters.planner)) flags += " --method complete";
-  flags += suffix_flags(parameters.planner);
   flags += fmt::format(" --seed {}", parameters.seed);
   if (parameters.max_restarts < db::kNoCountLimit) {
     flags += fmt::format(" --max-restarts {}", parameters.max_restarts);
@@ -57,7 +56,7 @@ std::string planner_flags(const db::CaseInfo& parameters) {
   if (!std::isinf(parameters.time_limit_s)) {
     flags += fmt::format(" --time-limit {}", format_ssi(parameters.time_limit_s));
   }
-  return flags;
+  return flags + suffix_flags(parameters.planner);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
       block.planners.push_back(mode);
     }
   }
+  if (request.refinement) block.refinement = *request.refinement;
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
   for (PlannerMode& planner : block.planners) {
     planner.any_angle = request.any_angle.value_or(planner.any_angle);
@@ -160,10 +161,16 @@ class Expansion {
     for (std::uint64_t k = 0; k < seeds; ++k) {
       options.seed = request_.seed + k;
       const InstanceSet& instances = sweep_.sets[set];
-      SweepCase parameters{
-          instances.environment,  instances.map_spec,          instances.name, instances.robots,
-          instances.radius_cells, instances.speed_cells_per_s, options,        set,
-          request_.command};
+      SweepCase parameters{instances.environment,
+                           instances.map_spec,
+                           instances.name,
+                           instances.robots,
+                           instances.radius_cells,
+                           instances.speed_cells_per_s,
+                           options,
+                           set,
+                           block.refinement,
+                           request_.command};
       std::string name = case_name(parameters, seeds > 1);
       if (names_.insert(name).second) sweep_.cases.push_back({std::move(name), std::move(parameters)});
     }

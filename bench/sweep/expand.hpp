@@ -33,6 +33,7 @@ struct SweepRequest {
   std::optional<bool> turns;
   std::optional<Method> method;
   std::optional<Fallback> fallback;
+  std::optional<Refinement> refinement;
   std::optional<std::uint64_t> count;
   std::optional<double> time_limit_s;
   std::optional<std::uint64_t> max_expansions;

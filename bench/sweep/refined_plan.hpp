@@ -54,6 +54,12 @@ struct RefinedPlan {
   SearchStatistics statistics() const;
 };
 
+/// Why the options and the refinement do not go together, in one line: ejection and improvement
+/// know nothing of inflated distances and times.
+std::optional<std::string> find_beyond_refinement(const PlannerOptions& options,
+                                                  const Refinement& refinement);
+
+/// REQUIRES: !find_beyond_refinement(options, refinement).
 RefinedPlan plan_refined(const Instance& instance, const PlannerOptions& options,
                          const Refinement& refinement);
 

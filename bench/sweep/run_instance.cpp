@@ -42,6 +42,11 @@ std::string limit_struck(const PlanResult& result, const PlannerOptions& options
   return "time";
 }
 
+std::int64_t nanoseconds(double seconds) {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  return std::llround(seconds * kNanosecondsPerSecond);
+}
+
 /// Whether a violation of this kind can be the rounding of a number.
 bool is_measured(ViolationKind kind) {
   return kind == ViolationKind::kAgentCollision || kind == ViolationKind::kObstacleCollision ||
@@ -72,10 +77,9 @@ void add_verdict(const Instance& instance, const Solution& solution, const Valid
 }
 
 db::ResultRow described(const PlannerOptions& options, const PlanResult& result) {
-  constexpr double kNanosecondsPerSecond = 1e9;
   db::ResultRow row;
   row.status = row_status(result.status);
-  row.planning_time_ns = std::llround(result.planning_seconds * kNanosecondsPerSecond);
+  row.planning_time_ns = nanoseconds(result.planning_seconds);
   row.tries = result.tries();
   row.expansions = result.statistics.expansions;
   row.generations = result.statistics.generations;
@@ -92,6 +96,37 @@ db::ResultRow judged(const Instance& instance, const PlannerOptions& options, co
   if (result.status == PlanStatus::kSolved) {
     add_verdict(instance, result.solution, {result.ssi_kept_s, result.order(), options.rules}, row);
   }
+  return row;
+}
+
+namespace {
+
+std::vector<db::ProgressRow> progress_rows(const RefinedPlan& refined) {
+  std::vector<db::ProgressRow> rows;
+  const ImprovementLog& log = refined.improvement->log;
+  for (const ProgressPoint& point : log.curve) {
+    rows.push_back({static_cast<std::int64_t>(point.iteration),
+                    nanoseconds(refined.plan.planning_seconds + point.seconds), point.cost.flowtime_s,
+                    point.cost.makespan_s, log.bound.flowtime_s, log.bound.makespan_s});
+  }
+  return rows;
+}
+
+}  // namespace
+
+db::ResultRow run_refined(const Instance& instance, const PlannerOptions& options,
+                          const Refinement& refinement) {
+  const RefinedPlan refined = plan_refined(instance, options, refinement);
+  db::ResultRow row = described(options, refined.plan);
+  row.planning_time_ns = nanoseconds(refined.seconds());
+  row.expansions = refined.statistics().expansions;
+  row.generations = refined.statistics().generations;
+  if (!refined.improvement) return row;
+  add_solution(refined.solution(), row);
+  row.ssi_kept_s = refined.ssi_kept_s();
+  add_verdict(instance, refined.solution(), refined.promises(options.rules), row);
+  if (refined.improvement->log.was_cut_short) row.limit = "time";
+  row.progress = progress_rows(refined);
   return row;
 }
 

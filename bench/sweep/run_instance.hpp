@@ -2,6 +2,7 @@
 // down what came out.
 #pragma once
 
+#include "bench/sweep/refined_plan.hpp"
 #include "db/records.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/prioritized/options.hpp"
@@ -28,5 +29,10 @@ void add_verdict(const Instance& instance, const Solution& solution, const Valid
 
 /// plan() and judged().
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options);
+
+/// plan_refined(), judged by the promises that are kept, with the curve of its improvement.
+/// Planning time is that of all steps. Where the clock ended the improvement, the result says so.
+db::ResultRow run_refined(const Instance& instance, const PlannerOptions& options,
+                          const Refinement& refinement);
 
 }  // namespace sipplab::bench

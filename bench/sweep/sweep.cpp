@@ -88,8 +88,12 @@ bool Sweep::begin() {
 
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
-db::ResultRow Sweep::plan_one(const PreparedInstance& prepared, const PlannerOptions& options) const {
-  return command_ ? command_->run(prepared.instance, options) : run_instance(prepared.instance, options);
+db::ResultRow Sweep::plan_one(const PreparedInstance& prepared, const SweepCase& parameters) const {
+  if (command_) return command_->run(prepared.instance, parameters.options);
+  if (parameters.refinement.is_wanted()) {
+    return run_refined(prepared.instance, parameters.options, parameters.refinement);
+  }
+  return run_instance(prepared.instance, parameters.options);
 }
 
 void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counters) {
@@ -108,7 +112,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     const std::size_t position = next++;
     const PreparedInstance& prepared = instances[position];
-    db::ResultRow row = plan_one(prepared, entry.parameters.options);
+    db::ResultRow row = plan_one(prepared, entry.parameters);
     if (command_ && stopping()) {
       state.SkipWithError("stopped before its end");  // the program was ended, too
       break;

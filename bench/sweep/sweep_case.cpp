@@ -21,9 +21,18 @@ std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCou
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
   const PlannerOptions& options = sweep_case.options;
-  if (options.method == Method::kComplete) return std::string(kComplete);
+  if (options.method == Method::kComplete) {
+    return std::string(kComplete) + refinement_suffix(sweep_case.refinement);
+  }
   return (options.any_angle ? "aa-sipp" : "sipp") + rules_suffix(options.rules) +
-         std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "");
+         std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "") +
+         refinement_suffix(sweep_case.refinement);
+}
+
+/// Whether a part of a planner's name begins what refinement_suffix() wrote.
+bool is_refinement(std::string_view part) {
+  const std::string_view kind = part.substr(0, part.find_first_of(":,"));
+  return kind == "best" || kind == "improve";
 }
 
 /// A rule of numbers, its word in the history and its flag.
@@ -58,6 +67,7 @@ std::string suffix_flags(std::string_view planner) {
     const std::string_view word = part.substr(0, part.find(':'));
     if (word == "turns") flags += " --turns";
     if (word == kComplete) flags += " --fallback complete";
+    if (is_refinement(part)) return flags + refinement_flags(planner.substr(at));  // it comes last
     for (const Margin& margin : kMargins) {
       if (word == margin.word) flags += fmt::format(" {} {}", margin.flag, part.substr(word.size() + 1));
     }
@@ -71,12 +81,14 @@ bool is_another_program(std::string_view planner) {
 }
 
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness) {
-  if (is_another_program(planner) || planner == kComplete) return std::string(planner);
+  if (is_another_program(planner) || is_complete_planner(planner)) return std::string(planner);
   return fmt::format("{}-{}{}", any_angle ? "any-angle" : "grid", 1 << connectedness,
                      planner.substr(std::min(planner.find('+'), planner.size())));
 }
 
-bool is_complete_planner(std::string_view planner) { return planner == kComplete; }
+bool is_complete_planner(std::string_view planner) {
+  return planner.substr(0, planner.find('+')) == kComplete;
+}
 
 std::string planner_name(const SweepCase& sweep_case) {
   const PlannerOptions& options = sweep_case.options;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/refined_plan.hpp"
 #include "db/records.hpp"
 #include "planner/prioritized/options.hpp"
 
@@ -20,13 +21,15 @@ struct SweepCase {
   double radius_cells = kDefaultRadiusCells;
   double speed_cells_per_s = kDefaultSpeedCellsPerS;
   PlannerOptions options;
-  std::size_t set = 0;       ///< which InstanceSet of the sweep
-  std::string command = {};  ///< name of the CommandPlanner that plans it; empty: this planner
+  std::size_t set = 0;         ///< which InstanceSet of the sweep
+  Refinement refinement = {};  ///< what comes after the method
+  std::string command = {};    ///< name of the CommandPlanner that plans it; empty: this planner
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
 /// "any-angle-4+turns+wait:0.5": the same for robots with headings that stand before they
-/// move. "complete": the complete planner; "any-angle-4+complete": with it as fallback.
+/// move. "complete": the complete planner; "any-angle-4+complete": with it as fallback;
+/// "any-angle-8+improve:300i,flowtime": improved.
 /// "cmd:NAME": another program, which `planner` of the history is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);
@@ -34,7 +37,7 @@ std::string planner_name(const SweepCase& sweep_case);
 /// Rules as the history has them, after the method's name: "+turns", "+wait:0.5",
 /// "+distance:0.25", "+time:2"; nothing where there are none.
 std::string rules_suffix(const MotionRules& rules);
-/// " --turns --wait-before-move 0.5 --fallback complete": the flags of `sipplab plan` for the
+/// " --turns --wait-before-move 0.5 --fallback complete --best": the flags of `sipplab plan` for the
 /// suffix of a planner of the history.
 std::string suffix_flags(std::string_view planner);
 

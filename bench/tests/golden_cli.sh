@@ -110,6 +110,8 @@ expect 0 validate --instance turn.xml --solution straight.csv --no-turns
 sed 's/heading="180"/heading="400"/' turn.xml >turn_too_far.xml
 refused "turn_too_far.xml:1: start.heading '400'" plan --instance turn_too_far.xml
 refused 'inflate-time' plan --instance turn.xml --inflate-time -1
+refused 'inflated distances or times, expected none' plan --instance turn.xml --inflate-time 1 --best
+expect 0 plan --instance turn.xml --best --improve 5i
 expect 0 generate --map empty:16x16 --agents 6 --radius 0.3,1.4 --speed 0.5,2 --headings --obstacles 1 -o bodies
 expect 0 plan --instance bodies/0.xml --turns --inflate-distance 0.125 --inflate-time 0.25
 

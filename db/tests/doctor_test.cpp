@@ -99,7 +99,7 @@ TEST_F(Doctor, an_empty_run_is_excluded) {
 
 TEST_F(Doctor, rows_that_others_deleted_are_missed) {
   record_version(file, {1, 1, 8});
-  change("DELETE FROM result WHERE instance_id = 3");
+  change("DELETE FROM progress WHERE instance_id = 3; DELETE FROM result WHERE instance_id = 3");
   const DoctorReport report = look();
   ASSERT_GE(report.findings.size(), 1U);
   EXPECT_EQ(report.findings[0].check, "results");

@@ -78,6 +78,8 @@ ResultRow sample_result(int index) {
   row.plan_hash = std::uint64_t{0xfedcba9876543210} + offset;
   row.valid = true;
   row.min_clearance_cells = 1e-12;
+  row.progress = {{0, 500'000, *row.flowtime_s + 100, 35, 900, 25},
+                  {200, 1'000'000 + index, *row.flowtime_s, *row.makespan_s, 900, 25}};
   return row;
 }
 

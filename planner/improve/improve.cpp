@@ -8,7 +8,6 @@
 #include "planner/core/assert.hpp"
 #include "planner/improve/neighbourhoods.hpp"
 #include "planner/prioritized/limits.hpp"
-#include "planner/search/sipp_search.hpp"
 
 namespace sipplab {
 namespace {
@@ -186,9 +185,10 @@ class LargeNeighbourhoodSearch {
 
 ImproveOptions improve_options(const PlannerOptions& planner, const PlanResult& plan) {
   ImproveOptions options;
-  options.ssi_s = plan.ssi_s;
+  options.ssi_s = plan.ssi_kept_s;
   options.any_angle = planner.any_angle;
   options.connectedness = planner.connectedness;
+  options.rules = planner.rules;
   options.seed = planner.seed;
   options.stop = planner.stop;
   return options;
@@ -201,8 +201,11 @@ ImproveResult improve(const Instance& instance, const Solution& given, const Pri
 
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const ImproveOptions& options) {
-  SippSearch search(instance, {options.any_angle, options.connectedness});
-  return improve(instance, given, order, options, search);
+  PlannerOptions planner;
+  planner.any_angle = options.any_angle;
+  planner.connectedness = options.connectedness;
+  planner.rules = options.rules;
+  return improve(instance, given, order, options, *single_agent_planner(instance, planner));
 }
 
 }  // namespace sipplab

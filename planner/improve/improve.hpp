@@ -24,6 +24,7 @@ struct ImproveOptions {
   double ssi_s = 0;
   bool any_angle = true;  ///< of the planner: which static times bound the result
   int connectedness = 2;
+  MotionRules rules = {};  ///< that the plan was made under; inflation is not known of here
   std::uint64_t seed = 1;
   /// Set from outside, by a signal for one: ends the search as the time limit does.
   const std::atomic<bool>* stop = nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/limits.hpp"
 
 namespace sipplab {
@@ -16,6 +17,9 @@ constexpr std::uint64_t kEscalationRestarts = 1;
 /// Robots that may fail during ejection, for each robot of the instance. (Trials: one for
 /// every three robots at 192 in the paper's warehouse.)
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
+/// Share of the time limit in which a plan must have been found; then the fallback makes one.
+/// The rest is for improvement, which a plan of the fallback needs more than any other.
+constexpr double kShareBeforeFallback = 0.3;
 
 class BestPlan {
  public:
@@ -26,13 +30,19 @@ class BestPlan {
     const PlannerOptions& planner = options_.planner;
     const bool is_found =
         take(BestStep::Kind::kMethod, planner.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
-        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection);
+        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection) ||
+        take(BestStep::Kind::kFallback, planner.ssi_s);
     if (is_found) improve_it();
     return std::move(result_);
   }
 
  private:
   double time_left_s() const { return options_.planner.time_limit_s - seconds_since(begin_); }
+
+  /// Until the fallback must have its turn.
+  double time_before_fallback_s() const {
+    return options_.planner.time_limit_s * kShareBeforeFallback - seconds_since(begin_);
+  }
 
   bool escalate(BestStep::Kind kind) {
     return std::any_of(options_.longer_ssi_s.begin(), options_.longer_ssi_s.end(),
@@ -47,6 +57,8 @@ class BestPlan {
         return kEscalationRestarts;
       case BestStep::Kind::kEjection:
         return kEjectionRestartsPerRobot * instance_.agents.size();
+      case BestStep::Kind::kFallback:
+        return UINT64_MAX;
     }
     return 0;
   }
@@ -57,13 +69,18 @@ class BestPlan {
     const PlanResult& before = result_.plan;
     PlannerOptions step = options_.planner;
     const bool is_first = result_.steps.empty();
+    const bool is_fallback = kind == BestStep::Kind::kFallback;
+    if (is_fallback && find_beyond_complete(instance_, step.rules)) return false;
+    step.fallback = Fallback::kNone;
     if (!is_first) {
       if (before.tries() > step.max_restarts || before.statistics.expansions >= step.max_expansions)
         return false;
       step = left_of(step, before);
-      step.time_limit_s = time_left_s();
+      step.time_limit_s = is_fallback ? time_left_s() : time_before_fallback_s();
       if (search_limits(step, Clock::now()).is_over()) return false;
     }
+    if (is_first) step.time_limit_s = time_before_fallback_s();
+    if (is_fallback) step.method = Method::kComplete;
     step.ssi_s = ssi_s;
     step.max_restarts = std::min(step.max_restarts, restarts_of(kind));
     if (kind == BestStep::Kind::kEjection) step.rescheduling = Rescheduling::kEjection;
@@ -98,6 +115,8 @@ std::string_view name(BestStep::Kind kind) {
       return "escalation";
     case BestStep::Kind::kEjection:
       return "ejection";
+    case BestStep::Kind::kFallback:
+      return "fallback";
   }
   return "unknown";
 }

@@ -26,14 +26,14 @@ struct BestOptions {
 
 /// A step of plan_best() that was taken.
 struct BestStep {
-  enum class Kind { kMethod, kEscalation, kEjection };
+  enum class Kind { kMethod, kEscalation, kEjection, kFallback };
   Kind kind = Kind::kMethod;
   double ssi_s = 0;
   PlanStatus status = PlanStatus::kFailed;
   std::size_t tries = 0;
   double seconds = 0;
 };
-/// "method", "escalation", "ejection".
+/// "method", "escalation", "ejection", "fallback".
 std::string_view name(BestStep::Kind kind);
 
 struct BestResult {
@@ -48,8 +48,10 @@ struct BestResult {
 ///  (1) the method of the options;
 ///  (2) the same with each longer start-safe interval;
 ///  (3) ejection, with the first interval and then with the longer ones;
-/// then the plan is improved until a limit strikes. All steps but the last are limited by
-/// counts, so the result is repeatable where max_iterations strikes before the time limit.
+///  (4) the complete planner, where the instance is of its kind;
+/// then the plan is improved until a limit strikes. The first three are limited by counts, and
+/// by a share of the time limit, so the result is repeatable where that is not used up and
+/// max_iterations strikes before the time limit.
 /// REQUIRES: !find_error(instance).
 BestResult plan_best(const Instance& instance, const BestOptions& options);
 
