@@ -147,7 +147,7 @@ constexpr double kDenseLimitS = 60;
 
 /// Densities at which prioritized planning has stopped.
 Suite dense() {
-  constexpr PlannerMode kComplete{false, 2, Method::kComplete};
+  constexpr PlannerMode kComplete{false, 2, {}, Method::kComplete};
   Suite suite;
   suite.name = "dense";
   suite.purpose = "crowded maps, up to 950 robots on 1024 cells, by the complete planner";

@@ -31,8 +31,7 @@ SearchStatistics RefinedPlan::statistics() const {
 
 std::optional<std::string> find_beyond_refinement(const PlannerOptions& options,
                                                   const Refinement& refinement) {
-  const MotionRules& rules = options.rules;
-  if (rules.inflate_distance_cells == 0 && rules.inflate_time_s == 0) return std::nullopt;
+  if (!options.rules.inflates()) return std::nullopt;
   if (!refinement.is_wanted() && options.rescheduling != Rescheduling::kEjection) return std::nullopt;
   return "inflated distances or times, expected none with ejection, --improve or --best";
 }

@@ -185,9 +185,8 @@ TEST(ReplayCommand, SaysWhatRobotsAndRulesAreNotAsUsual) {
                      "warehouse agents:64 seed:1 index:3 radius:0.3,1.4 speed:0.5,2 headings obstacles:2"),
       "sipplab generate --map warehouse --agents 64 --seed 1 --count 4 --radius 0.3,1.4 --speed 0.5,2 "
       "--obstacles 2 --headings -o replay && sipplab plan --instance replay/3.xml --ssi 5 --reschedule "
-      "deterministic "
-      "--order shortest --connectedness 2 --turns --wait-before-move 0.5 --inflate-distance 0.25 "
-      "--inflate-time 2 --seed 1");
+      "deterministic --order shortest --connectedness 2 --seed 1 --turns --wait-before-move 0.5 "
+      "--inflate-distance 0.25 --inflate-time 2");
   EXPECT_EQ(case_words({parameters}).front(),
             "warehouse, 64 robots, ssi 5, deterministic, shortest, "
             "any-angle-4+turns+wait:0.5+distance:0.25+time:2, "

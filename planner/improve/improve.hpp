@@ -24,7 +24,7 @@ struct ImproveOptions {
   double ssi_s = 0;
   bool any_angle = true;  ///< of the planner: which static times bound the result
   int connectedness = 2;
-  MotionRules rules = {};  ///< that the plan was made under; inflation is not known of here
+  MotionRules rules = {};  ///< that the plan was made under
   std::uint64_t seed = 1;
   /// Set from outside, by a signal for one: ends the search as the time limit does.
   const std::atomic<bool>* stop = nullptr;
@@ -69,7 +69,8 @@ struct ImproveResult {
 ///  (4) the same input, options and number of iterations give the same result: a limit in
 ///      seconds decides nothing but the number of iterations.
 /// `order` is the given plan's: the result's is near it.
-/// REQUIRES: !find_error(instance); the solution is valid, and one of the planner's kind.
+/// REQUIRES: !find_error(instance); the solution is valid, and one of the planner's kind;
+/// !options.rules.inflates().
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const ImproveOptions& options, SingleAgentPlanner& planner);
 

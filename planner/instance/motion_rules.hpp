@@ -24,6 +24,10 @@ struct MotionRules {
   /// "inflatecollisionintervals".
   double inflate_time_s = 0;
 
+  /// Whether robots keep away farther, or for longer, than their bodies need. How far depends on
+  /// who is of higher priority, so what leaves that open until the end knows nothing of it:
+  /// ejection and improvement.
+  bool inflates() const { return inflate_distance_cells > 0 || inflate_time_s > 0; }
   /// Whether planning for bodies alone will do.
   bool is_plain() const { return *this == MotionRules{}; }
   friend bool operator==(const MotionRules&, const MotionRules&) = default;

@@ -1,6 +1,7 @@
 #include "planner/portfolio/best_plan.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "planner/complete/complete_planner.hpp"
@@ -24,7 +25,10 @@ constexpr double kShareBeforeFallback = 0.3;
 class BestPlan {
  public:
   BestPlan(const Instance& instance, const BestOptions& options)
-      : instance_(instance), options_(options), begin_(Clock::now()) {}
+      : instance_(instance),
+        options_(options),
+        has_fallback_(!find_beyond_complete(instance, options.planner.rules)),
+        begin_(Clock::now()) {}
 
   BestResult run() {
     const PlannerOptions& planner = options_.planner;
@@ -41,7 +45,8 @@ class BestPlan {
 
   /// Until the fallback must have its turn.
   double time_before_fallback_s() const {
-    return options_.planner.time_limit_s * kShareBeforeFallback - seconds_since(begin_);
+    const double share = has_fallback_ ? kShareBeforeFallback : 1;
+    return options_.planner.time_limit_s * share - seconds_since(begin_);
   }
 
   bool escalate(BestStep::Kind kind) {
@@ -58,35 +63,45 @@ class BestPlan {
       case BestStep::Kind::kEjection:
         return kEjectionRestartsPerRobot * instance_.agents.size();
       case BestStep::Kind::kFallback:
-        return UINT64_MAX;
+        return 0;
     }
     return 0;
   }
 
-  /// Whether that gave a plan. The first step is always taken; others only where something is
-  /// left of every limit.
-  bool take(BestStep::Kind kind, double ssi_s) {
+  /// The options of a step; none where it cannot be taken. The first one always can, others
+  /// only where something is left of every limit; the fallback has the counts anew.
+  std::optional<PlannerOptions> options_of(BestStep::Kind kind, double ssi_s) const {
     const PlanResult& before = result_.plan;
-    PlannerOptions step = options_.planner;
     const bool is_first = result_.steps.empty();
-    const bool is_fallback = kind == BestStep::Kind::kFallback;
-    if (is_fallback && find_beyond_complete(instance_, step.rules)) return false;
-    step.fallback = Fallback::kNone;
-    if (!is_first) {
-      if (before.tries() > step.max_restarts || before.statistics.expansions >= step.max_expansions)
-        return false;
-      step = left_of(step, before);
-      step.time_limit_s = is_fallback ? time_left_s() : time_before_fallback_s();
-      if (search_limits(step, Clock::now()).is_over()) return false;
-    }
-    if (is_first) step.time_limit_s = time_before_fallback_s();
-    if (is_fallback) step.method = Method::kComplete;
+    PlannerOptions step = options_.planner;
     step.ssi_s = ssi_s;
+    step.fallback = Fallback::kNone;
+    if (kind == BestStep::Kind::kFallback) {
+      if (!has_fallback_) return std::nullopt;
+      step.method = Method::kComplete;
+      step.time_limit_s = time_left_s();
+      return step;
+    }
+    if (!is_first) {
+      if (before.tries() > step.max_restarts || before.statistics.expansions >= step.max_expansions) {
+        return std::nullopt;
+      }
+      step = left_of(step, before);
+    }
+    step.time_limit_s = time_before_fallback_s();
+    if (!is_first && search_limits(step, Clock::now()).is_over()) return std::nullopt;
     step.max_restarts = std::min(step.max_restarts, restarts_of(kind));
     if (kind == BestStep::Kind::kEjection) step.rescheduling = Rescheduling::kEjection;
-    PlanResult next = plan(instance_, step);
+    return step;
+  }
+
+  /// Whether that gave a plan.
+  bool take(BestStep::Kind kind, double ssi_s) {
+    const std::optional<PlannerOptions> step = options_of(kind, ssi_s);
+    if (!step) return false;
+    PlanResult next = plan(instance_, *step);
     result_.steps.push_back({kind, ssi_s, next.status, next.tries(), next.planning_seconds});
-    prepend(before, next);
+    prepend(result_.plan, next);
     result_.plan = std::move(next);
     return result_.plan.status == PlanStatus::kSolved;
   }
@@ -101,6 +116,7 @@ class BestPlan {
 
   const Instance& instance_;
   const BestOptions& options_;
+  bool has_fallback_;  ///< whether the complete planner knows such instances
   Clock::time_point begin_;
   BestResult result_;
 };

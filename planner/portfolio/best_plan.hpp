@@ -52,7 +52,7 @@ struct BestResult {
 /// then the plan is improved until a limit strikes. The first three are limited by counts, and
 /// by a share of the time limit, so the result is repeatable where that is not used up and
 /// max_iterations strikes before the time limit.
-/// REQUIRES: !find_error(instance).
+/// REQUIRES: !find_error(instance), !options.planner.rules.inflates().
 BestResult plan_best(const Instance& instance, const BestOptions& options);
 
 }  // namespace sipplab

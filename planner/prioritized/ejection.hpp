@@ -17,7 +17,8 @@ namespace sipplab {
 /// That robots which were ejected often stay is what breaks cycles; a robot ejected
 /// kMostEjections times ends the run as failed. The trace says who ejected whom.
 /// The final order keeps the promise of start-safe intervals (StartPrecedence).
-/// REQUIRES: !find_error(instance), options.rescheduling == Rescheduling::kEjection.
+/// REQUIRES: !find_error(instance), options.rescheduling == Rescheduling::kEjection,
+/// !options.rules.inflates().
 PlanResult plan_by_ejection(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 

@@ -50,7 +50,7 @@ struct ValidationOptions {
   /// priority order; 0 or an empty order: nothing to check.
   double ssi_s = 0;
   std::vector<AgentIndex> order;
-  MotionRules rules;  ///< what the plan was made for
+  MotionRules rules = {};  ///< what the plan was made for
   /// Stop collecting after this many violations; 0 counts as 1.
   std::size_t max_violations = 100;
 };

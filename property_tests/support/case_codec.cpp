@@ -161,6 +161,9 @@ std::optional<PlanCase> decode_case(std::string_view input) {
   auto map = make_map(rows);
   if (!map) return std::nullopt;
   plan_case.instance.map = std::move(*map);
+  // plan_by_ejection() requires otherwise.
+  const PlannerOptions& options = plan_case.options;
+  if (options.rescheduling == Rescheduling::kEjection && options.rules.inflates()) return std::nullopt;
   return plan_case;
 }
 

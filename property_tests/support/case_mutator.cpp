@@ -196,6 +196,7 @@ void change_options(Random& random, PlannerOptions& options) {
       break;
     case 6:
       options.rules.wait_before_move_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      if (options.rescheduling == Rescheduling::kEjection) break;  // knows nothing of inflation
       options.rules.inflate_distance_cells = one_in(random, 2) ? 0 : draw_eighths(random, 1);
       options.rules.inflate_time_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
       break;
