@@ -28,7 +28,7 @@ struct BenchArguments {
   std::vector<std::string> order;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
-  std::optional<bool> turns;
+  MotionFlags motion;
   std::optional<std::string> method;
   std::optional<std::string> fallback;
   std::optional<std::uint64_t> count;

@@ -95,7 +95,7 @@ Expected<LoadedInstance, std::string> InstanceFlags::load() const {
 }
 
 void MotionFlags::add_to(CLI::App& command) {
-  add_turns_flag(command, turns_);
+  add_yes_or_no(command, "--turns,!--no-turns", turns_, "robots have headings, and turning takes time");
   const auto add_margin = [&command](const char* name, std::optional<double>& margin, const char* unit,
                                      const char* words) {
     command.add_option(name, margin, words)->check(CLI::Range(0.0, kMaxMotionMargin))->type_name(unit);
@@ -194,10 +194,6 @@ bench::Refinement ImproveFlags::refinement(bool best) const {
 
 void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle) {
   add_yes_or_no(command, "--any-angle,!--no-any-angle", any_angle, "straight moves between any two cells");
-}
-
-void add_turns_flag(CLI::App& command, std::optional<bool>& turns) {
-  add_yes_or_no(command, "--turns,!--no-turns", turns, "robots have headings, and turning takes time");
 }
 
 void add_method_flags(CLI::App& command, std::optional<std::string>& method,

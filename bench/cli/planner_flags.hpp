@@ -107,8 +107,6 @@ void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
 /// --method and --fallback; empty unless the user gave them.
 void add_method_flags(CLI::App& command, std::optional<std::string>& method,
                       std::optional<std::string>& fallback);
-/// --turns and --no-turns, likewise.
-void add_turns_flag(CLI::App& command, std::optional<bool>& turns);
 
 /// --svg, with `words` for help, and --animate.
 struct PictureFlags {

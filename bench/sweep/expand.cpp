@@ -41,8 +41,8 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
     planner.method = request.method.value_or(planner.method);
     planner.fallback = request.fallback.value_or(planner.fallback);
   }
-  if (request.turns) {
-    for (PlannerMode& planner : block.planners) planner.rules.turns = *request.turns;
+  if (request.change_rules) {
+    for (PlannerMode& planner : block.planners) request.change_rules(planner.rules);
   }
   return block;
 }
@@ -74,9 +74,10 @@ PlannerOptions without_idle_choices(PlannerOptions options) {
 }
 
 /// Why a case cannot be planned, in one line.
-std::optional<std::string> find_beyond_complete(const ExpandedSweep& sweep) {
+std::optional<std::string> find_unplannable(const ExpandedSweep& sweep) {
   for (const NamedCase& named : sweep.cases) {
     const PlannerOptions& options = named.parameters.options;
+    if (auto line = find_beyond_refinement(options, named.parameters.refinement)) return line;
     if (options.method != Method::kComplete && options.fallback != Fallback::kComplete) continue;
     for (const PreparedInstance& prepared : sweep.sets[named.parameters.set].instances) {
       const std::optional<InstanceError> error = find_beyond_complete(prepared.instance, options.rules);
@@ -254,7 +255,7 @@ Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
 Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
   Expected<ExpandedSweep, std::string> sweep = expand_all(request);
   if (!sweep) return sweep;
-  if (const auto line = find_beyond_complete(*sweep)) return Unexpected{*line};
+  if (const auto line = find_unplannable(*sweep)) return Unexpected{*line};
   return sweep;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ struct SweepRequest {
   std::vector<InitialOrder> orders;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
-  std::optional<bool> turns;
+  /// Overwrites what the user chose of the rules of motion; none: nothing.
+  std::function<void(MotionRules&)> change_rules;
   std::optional<Method> method;
   std::optional<Fallback> fallback;
   std::optional<Refinement> refinement;

@@ -114,6 +114,9 @@ refused 'inflated distances or times, expected none' plan --instance turn.xml --
 expect 0 plan --instance turn.xml --best --improve 5i
 expect 0 generate --map empty:16x16 --agents 6 --radius 0.3,1.4 --speed 0.5,2 --headings --obstacles 1 -o bodies
 expect 0 plan --instance bodies/0.xml --turns --inflate-distance 0.125 --inflate-time 0.25
+expect 0 bench --instances bodies --turns --wait-before-move 0.25 --inflate-time 0.5 --max-restarts 3 --db rules.db
+equal "$(sqlite3 rules.db 'SELECT DISTINCT planner FROM v_run_cells')" 'aa-sipp+turns+wait:0.25+time:0.5' 'the rules in the history'
+refused 'inflated distances or times, expected none' bench --instances bodies --inflate-time 1 --improve 5i --db rules.db
 
 # --- the history ------------------------------------------------------------------
 

@@ -209,7 +209,7 @@ TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
   EXPECT_EQ(result.status, db::ResultStatus::kSolved);
   EXPECT_EQ(result.valid, true);
 
-  request.turns = false;
+  request.change_rules = [](MotionRules& rules) { rules.turns = false; };
   const auto plain = expand(request);
   ASSERT_TRUE(plain.has_value());
   EXPECT_EQ(plain->cases.size(), 2u);  // two planners have become one
