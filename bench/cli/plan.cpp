@@ -224,7 +224,7 @@ Command add_plan_command(CLI::App& program) {
   command->add_flag(
       "--best", arguments->best,
       "the best plan in 30 s or --time-limit: the method, longer start-safe intervals, ejection, "
-      "then improvement");
+      "the complete planner, then improvement");
   command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");

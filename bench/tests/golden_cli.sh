@@ -78,6 +78,11 @@ for format in xml json; do
   says '^valid.*start-safe interval [0-9.]+ kept'
 done
 says '"made_by": "complete"' bay.json.out
+# The fallback comes last: after longer start-safe intervals, and where a limit struck before them.
+expect 0 plan --instance bay.xml --reschedule none --ssi 1,2 --fallback complete --json
+says '"tries": 3,'
+expect 0 plan --instance bay.xml --ssi 1,2 --max-restarts 0 --fallback complete
+says '^made by     the complete planner'
 expect 0 plan --instance bay.xml --method complete --json
 says '"tries": 1,'
 expect 0 plan --instance warehouse/0.xml --fallback complete --json

@@ -34,8 +34,9 @@ enum class Claim : std::uint8_t {
   kSightIsExact,            ///< line of sight agrees with whole numbers, both ways
   kTwinsAgree,              ///< fast path and plain twin give the same
   kCompleteIsComplete,      ///< the complete planner solves exactly what an exhaustive search solves
+  kImprovementIsNoWorse,    ///< an improved plan costs no more than the plan that was given
 };
-inline constexpr std::size_t kClaims = 22;
+inline constexpr std::size_t kClaims = 23;
 std::string_view name(Claim claim);
 
 /// What an input turned out to be.

@@ -147,7 +147,10 @@ std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instanc
       instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
 }
 
-PlanResult plan(const Instance& instance, const PlannerOptions& options) {
+namespace {
+
+/// By the method of the options alone: no fallback.
+PlanResult plan_by_method(const Instance& instance, const PlannerOptions& options) {
   const Clock::time_point begin = Clock::now();
   PlanResult result;
   if (options.method == Method::kComplete) {
@@ -155,12 +158,15 @@ PlanResult plan(const Instance& instance, const PlannerOptions& options) {
   } else {
     const std::unique_ptr<SingleAgentPlanner> search = single_agent_planner(instance, options);
     result = plan_prioritized(instance, options, *search);
-    if (result.status != PlanStatus::kSolved && options.fallback == Fallback::kComplete) {
-      plan_all_at_once(instance, options, result);
-    }
   }
   result.planning_seconds = seconds_since(begin);
   return result;
+}
+
+}  // namespace
+
+PlanResult plan(const Instance& instance, const PlannerOptions& options) {
+  return plan_escalating(instance, options, {});
 }
 
 PlannerOptions left_of(const PlannerOptions& options, const PlanResult& done) {
@@ -179,22 +185,23 @@ void prepend(const PlanResult& before, PlanResult& result) {
 
 PlanResult plan_escalating(const Instance& instance, const PlannerOptions& options,
                            const std::vector<double>& longer_s) {
-  PlannerOptions first = options;
-  if (!longer_s.empty()) first.fallback = Fallback::kNone;  // it comes last
-  PlanResult result = plan(instance, first);
-  for (const double& ssi_s : longer_s) {
+  const Clock::time_point begin = Clock::now();
+  PlanResult result = plan_by_method(instance, options);
+  for (const double ssi_s : longer_s) {
     if (result.status != PlanStatus::kFailed) break;
     PlannerOptions left = left_of(options, result);
-    if (&ssi_s != &longer_s.back()) left.fallback = Fallback::kNone;
     if (result.tries() > options.max_restarts || !(left.time_limit_s > 0)) {
       result.status = PlanStatus::kLimit;
       break;
     }
     left.ssi_s = ssi_s;
-    PlanResult next = plan(instance, left);
+    PlanResult next = plan_by_method(instance, left);
     prepend(result, next);
     result = std::move(next);
   }
+  const bool may_fall_back = options.fallback == Fallback::kComplete && options.method != Method::kComplete;
+  if (may_fall_back && result.status != PlanStatus::kSolved) plan_all_at_once(instance, options, result);
+  result.planning_seconds = seconds_since(begin);
   return result;
 }
 
