@@ -42,6 +42,9 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
       at_start.first == at_start.last || nodes_[at_start.first].interval.begin_s > 0) {
     return Unexpected{PlanFailure::kNoPath};
   }
+  if (nodes_[at_goal.last - 1].interval.begin_s > limits.latest_arrival_s) {
+    return Unexpected{PlanFailure::kNoPath};
+  }
   nodes_[at_start.first].arrival_s = 0;
   open_.push(at_start.first, f(nodes_[at_start.first]), 0);
 
@@ -246,8 +249,8 @@ bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   SippNode& goal = nodes_[goal_id];
   if (origin.cell == agent_->goal || !line_of_sight_->is_clear(origin.cell, agent_->goal)) return false;
   const Move move(Displacement(centre(origin.cell), centre(agent_->goal)), agent_->speed_cells_per_s);
-  const double departure_s = origin.arrival_s;
-  if (departure_s + move.duration < goal.interval.begin_s) return false;
+  const double departure_s = std::max(origin.arrival_s, goal.interval.begin_s - move.duration);
+  if (departure_s > origin.interval.end_s) return false;
   const double safe_s = options_.indexed_reservations
                             ? reservations_->earliest_departure(move, agent_->radius_cells, departure_s,
                                                                 departure_s, &shot_blocker_)
@@ -255,7 +258,7 @@ bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   if (safe_s > departure_s) return false;
   ++statistics.generations;
   goal.departure_s = departure_s;
-  goal.arrival_s = departure_s + move.duration;
+  goal.arrival_s = std::max(departure_s + move.duration, goal.interval.begin_s);
   goal.parent = id;
   return true;
 }

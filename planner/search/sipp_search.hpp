@@ -18,9 +18,9 @@ struct SippOptions {
   bool any_angle = true;
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
-  /// Try the straight way to the goal from each expanded node, departing at once: it
-  /// arrives as early as the node's f promises, which is the least in OPEN, and the search
-  /// ends. Any-angle only, where the search is greedy and f may fall along a way: now and
+  /// Try the straight way to the goal from each expanded node, departing at once, or so late
+  /// that the goal is free for good on arrival: no node of OPEN promises an earlier one, and
+  /// the search ends. Any-angle only, where the search is greedy and f may fall along a way: now and
   /// then an earlier arrival would have been found by searching on.
   bool direct_shot = true;
   /// Queue successors with a lower bound on their arrival and compute the arrival when
@@ -85,8 +85,8 @@ class SippSearch final : public SingleAgentPlanner {
   /// The last departure that reaches the node while it is safe and no later than known.
   double latest_departure_s(const SippNode& origin, const SippNode& target, double duration_s) const;
   bool arrive(NodeId from, NodeId id, double departure_s, double duration_s, Tie tie);
-  /// Whether the straight way to the goal is safe when the node is left at once; then the
-  /// goal's node says so.
+  /// Whether the straight way to the goal is safe when the node is left at once, or in time for
+  /// the moment from which the goal is free; then the goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
   double earliest_departure(const Move& move, double from_s, double until_s);
   Trajectory reconstruct(NodeId goal) const;

@@ -46,7 +46,8 @@ PlanCase any_world() {
   return world;
 }
 
-Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, SearchStatistics& work) {
+Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, SearchStatistics& work,
+                                         const SearchLimits& limits = {}) {
   SippOptions options;
   options.any_angle = any_angle;
   options.connectedness = world.options.connectedness;
@@ -54,7 +55,7 @@ Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, 
   for (const DynamicObstacle& obstacle : world.instance.obstacles) {
     reservations.add(obstacle.trajectory, obstacle.radius_cells);
   }
-  return SippSearch(world.instance, options).plan(0, reservations, {}, work);
+  return SippSearch(world.instance, options).plan(0, reservations, limits, work);
 }
 
 }  // namespace
@@ -103,6 +104,26 @@ int main() {
       both = both || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;
     }
     RC_CLASSIFY(both, "some arrive earlier");
+  });
+
+  passed &= property("whoever arrives within a latest arrival is found; nothing later is", [] {
+    bool too_late = false;
+    for (int i = 0; i < kWorldsPerCase; ++i) {
+      const PlanCase world = any_world();
+      note_case(world);
+      SearchStatistics work;
+      const bool any_angle = *rc::gen::arbitrary<bool>();
+      const auto found = search(world, any_angle, work);
+      if (!found) continue;
+      SearchLimits limits;
+      limits.latest_arrival_s = found->arrival_s() * *any_of({0.5, 0.9, 1 + kArrivalS, 1.5});
+      const auto limited = search(world, any_angle, work, limits);
+      if (limited) RC_ASSERT(limited->arrival_s() <= limits.latest_arrival_s);
+      // On a grid f never falls along a way, so that nothing is given up for its bound.
+      if (!any_angle) RC_ASSERT(limited.has_value() == (found->arrival_s() <= limits.latest_arrival_s));
+      too_late = too_late || found->arrival_s() > limits.latest_arrival_s;
+    }
+    RC_CLASSIFY(too_late, "some arrive too late");
   });
   return passed ? 0 : 1;
 }
