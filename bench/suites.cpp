@@ -185,11 +185,31 @@ Suite anytime() {
   return suite;
 }
 
+/// Seconds: four times what the largest instance takes.
+constexpr double kScaleLimitS = 3600;
+
+/// One robot for every sixteen cells, from hundreds to more than ten thousand: how time and
+/// memory grow where the density does not.
+Suite scale() {
+  Suite suite;
+  suite.name = "scale";
+  suite.purpose = "256 to 16384 robots on maps that grow with them; the largest takes many minutes";
+  suite.instances = 1;
+  suite.time_limit_s = kScaleLimitS;
+  suite.blocks = {
+      {"empty:64x64", {256}, {5}, {kDeterministic}},     {"empty:91x90", {512}, {5}, {kDeterministic}},
+      {"empty:128x128", {1024}, {5}, {kDeterministic}},  {"empty:181x181", {2048}, {5}, {kDeterministic}},
+      {"empty:256x256", {4096}, {5}, {kDeterministic}},  {"empty:362x362", {8192}, {5}, {kDeterministic}},
+      {"empty:512x512", {16384}, {5}, {kDeterministic}},
+  };
+  return suite;
+}
+
 }  // namespace
 
 const std::vector<Suite>& suites() {
-  static const std::vector<Suite> all = {smoke(),       gate(),        density(), mixed(),  paper(),
-                                         paper_quick(), adversarial(), dense(),   anytime()};
+  static const std::vector<Suite> all = {smoke(),       gate(),        density(), mixed(),   paper(),
+                                         paper_quick(), adversarial(), dense(),   anytime(), scale()};
   return all;
 }
 

@@ -277,7 +277,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                                         ? std::string()
                                         : in_quotes(text) +
                                               ", expected smoke, gate, density, mixed, paper, paper-quick, "
-                                              "adversarial, dense or anytime";
+                                              "adversarial, dense, anytime or scale";
                            })
                            ->capture_default_str();
   CLI::Option* folders =

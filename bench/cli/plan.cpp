@@ -2,10 +2,12 @@
 // only then writes anything.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -220,6 +222,7 @@ Command add_plan_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plan", "plan one instance; exit code 1 where it is not solved");
   arguments->instance.add_to(*command);
   arguments->planner.add_to(*command);
+  arguments->improve.threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads);
   arguments->improve.add_to(*command);
   command->add_flag(
       "--best", arguments->best,

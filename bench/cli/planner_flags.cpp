@@ -182,6 +182,12 @@ void ImproveFlags::add_to(CLI::App& command) {
       ->check(check_objective)
       ->capture_default_str()
       ->type_name("WHAT");
+  command
+      .add_option("--threads", threads,
+                  "of improvement; so many iterations give the same plan on any number of threads")
+      ->check(CLI::Range(1U, kMostThreads))
+      ->capture_default_str()
+      ->type_name("N");
 }
 
 bench::Refinement ImproveFlags::refinement(bool best) const {
@@ -189,6 +195,7 @@ bench::Refinement ImproveFlags::refinement(bool best) const {
   refinement.best = best;
   if (budget) refinement.improve = parse_improve_budget(*budget);
   refinement.objective = parse_objective(objective).value_or(Objective{});
+  refinement.threads = threads;
   return refinement;
 }
 

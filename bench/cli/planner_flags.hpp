@@ -76,6 +76,8 @@ std::optional<std::string> beyond_complete(const Instance& instance, const Plann
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
+/// Most threads of an improvement: each holds a copy of the plan.
+inline constexpr unsigned kMostThreads = 64;
 
 /// Checks for CLI11: empty when the text is right, else what was expected.
 std::string check_ssi(const std::string& text);
@@ -93,10 +95,11 @@ std::string check_shard(const std::string& text);
 /// REQUIRES: check_time_limit(text) is empty.
 double parse_time_limit_s(std::string_view text);
 
-/// --improve and --objective.
+/// --improve, --objective and --threads.
 struct ImproveFlags {
   std::optional<std::string> budget;
   std::string objective = "flowtime";
+  unsigned threads = 1;
 
   void add_to(CLI::App& command);
   bench::Refinement refinement(bool best) const;

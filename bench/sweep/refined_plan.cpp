@@ -46,6 +46,7 @@ RefinedPlan plan_refined(const Instance& instance, const PlannerOptions& options
     best.objective = refinement.objective;
     best.max_iterations = budget.iterations;
     best.improve_time_limit_s = budget.seconds;
+    best.threads = refinement.threads;
     BestResult result = plan_best(instance, best);
     return {std::move(result.plan), std::move(result.steps), std::move(result.improvement)};
   }
@@ -56,6 +57,7 @@ RefinedPlan plan_refined(const Instance& instance, const PlannerOptions& options
   improving.objective = refinement.objective;
   improving.max_iterations = budget.iterations;
   improving.time_limit_s = budget.seconds;
+  improving.threads = refinement.threads;
   refined.improvement = improve(instance, refined.plan.solution, refined.plan.order(), improving);
   return refined;
 }

@@ -22,6 +22,7 @@ struct Refinement {
   /// Start-safe intervals that are tried when that of the options fails; with `best` none
   /// stands for the default ones.
   std::vector<double> longer_ssi_s;
+  unsigned threads = 1;  ///< of improvement; what comes out does not depend on it
 
   bool is_wanted() const { return best || improve.has_value(); }
 };

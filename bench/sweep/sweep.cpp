@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/sweep/interrupt.hpp"
+#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 
 namespace sipplab::bench {
@@ -90,10 +91,12 @@ bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(
 
 db::ResultRow Sweep::plan_one(const PreparedInstance& prepared, const SweepCase& parameters) const {
   if (command_) return command_->run(prepared.instance, parameters.options);
-  if (parameters.refinement.is_wanted()) {
-    return run_refined(prepared.instance, parameters.options, parameters.refinement);
-  }
-  return run_instance(prepared.instance, parameters.options);
+  const PeakMemory memory;
+  db::ResultRow row = parameters.refinement.is_wanted()
+                          ? run_refined(prepared.instance, parameters.options, parameters.refinement)
+                          : run_instance(prepared.instance, parameters.options);
+  row.peak_memory_bytes = memory.bytes();
+  return row;
 }
 
 void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counters) {

@@ -1,8 +1,10 @@
 // What a sweep promises before anything is run or recorded: verdicts, names, the order
 // of files, filters, and which cases a request means.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/generator/generator.hpp"
 
@@ -76,6 +79,21 @@ TEST(Judged, APlanOfTheFallbackNamesItsMaker) {
   EXPECT_EQ(solved.status, db::ResultStatus::kSolved);
   EXPECT_EQ(solved.made_by, "complete");
   EXPECT_EQ(solved.ssi_kept_s, 0);
+}
+
+TEST(PeakMemory, IsThatOfTheTimeSinceItBegan) {
+  const PeakMemory whole;
+  const std::optional<std::int64_t> at_first = whole.bytes();
+  if (!at_first) return;  // not measured on this system
+  constexpr std::size_t kBytes = std::size_t{64} << 20;
+  // Not by malloc, which under a sanitizer keeps what is freed.
+  void* const memory =
+      mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  munmap(memory, kBytes);
+  constexpr auto kMost = static_cast<std::int64_t>(kBytes * 9 / 10);
+  EXPECT_GE(*whole.bytes(), *at_first + kMost);
+  EXPECT_LE(*PeakMemory().bytes(), *whole.bytes() - kMost);
 }
 
 TEST(PlannerName, SaysWhatThePlannerIsMadeOf) {

@@ -26,6 +26,7 @@ struct ImproveOptions {
   int connectedness = 2;
   MotionRules rules = {};  ///< that the plan was made under
   std::uint64_t seed = 1;
+  unsigned threads = 1;  ///< at least one is used; the result does not depend on how many
   /// Set from outside, by a signal for one: ends the search as the time limit does.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -66,15 +67,16 @@ struct ImproveResult {
 ///  (1) the result is never worse than the given plan (is_better());
 ///  (2) it is free of conflicts where the given plan is;
 ///  (3) it keeps the promise of start-safe intervals where the given plan keeps it in some order;
-///  (4) the same input, options and number of iterations give the same result: a limit in
-///      seconds decides nothing but the number of iterations.
+///  (4) the same input, options and number of iterations give the same result, on any number
+///      of threads: a limit in seconds decides nothing but the number of iterations.
 /// `order` is the given plan's: the result's is near it.
 /// REQUIRES: !find_error(instance); the solution is valid, and one of the planner's kind;
 /// !options.rules.inflates().
+/// One thread, since there is one planner.
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const ImproveOptions& options, SingleAgentPlanner& planner);
 
-/// The same with the planner that the options name.
+/// The same with the planner that the options name, one for each thread.
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const ImproveOptions& options);
 

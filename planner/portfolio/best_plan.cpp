@@ -12,9 +12,9 @@ namespace {
 
 /// Restarts of the method of the options: where it needs many more, ejection is faster.
 /// (Trials on the paper's warehouse: 3 tries on average at 128 robots, 11 at 160.)
-constexpr std::uint64_t kMethodRestarts = 4;
+constexpr std::uint64_t kMethodRestarts = 1;
 /// Restarts with each longer start-safe interval.
-constexpr std::uint64_t kEscalationRestarts = 1;
+constexpr std::uint64_t kEscalationRestarts = 0;
 /// Robots that may fail during ejection, for each robot of the instance. (Trials: one for
 /// every three robots at 192 in the paper's warehouse.)
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
@@ -110,6 +110,7 @@ class BestPlan {
     ImproveOptions improving = improve_options(options_.planner, result_.plan);
     improving.objective = options_.objective;
     improving.max_iterations = options_.max_iterations;
+    improving.threads = options_.threads;
     improving.time_limit_s = std::min(options_.improve_time_limit_s, time_left_s());
     result_.improvement = improve(instance_, result_.plan.solution, result_.plan.order(), improving);
   }

@@ -22,6 +22,7 @@ struct BestOptions {
   /// Of the improvement, besides the limits of `planner`.
   std::uint64_t max_iterations = UINT64_MAX;
   double improve_time_limit_s = std::numeric_limits<double>::infinity();
+  unsigned threads = 1;  ///< of the improvement, as in ImproveOptions
 };
 
 /// A step of plan_best() that was taken.

@@ -111,7 +111,7 @@ int main() {
         PlanCase plan_case = any_noted_case();
         plan_case.options.max_expansions = kAmpleExpansions;
         const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
-        plan_case.options.max_restarts = 4;
+        plan_case.options.max_restarts = 1;
         const PlanResult method = plan(plan_case.instance, plan_case.options);
         plan_case.options.rescheduling = Rescheduling::kEjection;
         plan_case.options.max_restarts = 4 * plan_case.instance.agents.size();

@@ -13,6 +13,9 @@
 #include "property_tests/support/property.hpp"
 
 namespace sipplab {
+
+void showValue(const Objective& objective, std::ostream& out) { out << format_objective(objective); }
+
 namespace {
 
 struct Planned {
@@ -139,6 +142,18 @@ int main() {
       RC_ASSERT(longer.log.curve[i].iteration == one.log.curve[i].iteration);
       RC_ASSERT(longer.log.curve[i].cost.flowtime_s == one.log.curve[i].cost.flowtime_s);
     }
+  });
+
+  passed &= property("improve (4): any number of threads gives the same plan", [] {
+    const Planned planned = any_planned();
+    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const ImproveResult one = improved(planned, options);
+    options.threads = *rc::gen::inRange(2U, 5U);
+    const ImproveResult several = improved(planned, options);
+    RC_ASSERT(one.solution == several.solution);
+    RC_ASSERT(one.order == several.order);
+    RC_ASSERT(one.log.improvements == several.log.improvements);
+    RC_ASSERT(one.statistics.expansions == several.statistics.expansions);
   });
 
   passed &= property("a search that is stopped at once gives back what it was given", [] {

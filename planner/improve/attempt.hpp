@@ -1,0 +1,51 @@
+// One iteration of large neighbourhood search, tried on a plan that is as before afterwards.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/improve/neighbourhoods.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/prioritized/partial_plan.hpp"
+
+namespace sipplab {
+
+/// What is the same for all attempts of a round.
+struct Round {
+  const Instance& instance;
+  const Objective& objective;
+  const RuleRoulette& roulette;
+  const std::vector<double>& static_times_s;    ///< by robot
+  const std::vector<Trajectory>& fastest_ways;  ///< by robot, alone on the map
+  PlanCost cost;                                ///< of the plan
+  SearchLimits limits;
+};
+
+/// Some robots, planned again in this sequence.
+struct Attempt {
+  RemovalRule rule = RemovalRule::kRandom;
+  std::vector<AgentIndex> robots;
+  std::vector<Trajectory> found;  ///< by place in `robots`; less where one found no way
+  double gain = 0;                ///< by which the objective falls; 0 where it does not
+  bool is_better = false;         ///< all found a way, and the plan is better with these
+  bool was_cut_short = false;     ///< by a limit: nothing is known of it
+  SearchStatistics work;
+};
+
+PlanCost cost_of(const Instance& instance, const PartialPlan& plan);
+
+/// Takes robots out of the plan, plans them again, and puts them back as they were. The same
+/// plan, round and random numbers give the same attempt. REQUIRES: all robots are planned.
+Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random);
+
+/// Puts the trajectories of an attempt into a plan where they fit those of the robots in
+/// `changed`, which came in after the attempt was made, and where the plan, whose cost is
+/// `cost`, becomes better, and lowers the cost; else the plan is as before and the answer false.
+/// REQUIRES: attempt.is_better; none of its robots is in `changed`.
+bool take_over(const Round& round, const Attempt& attempt, const std::vector<AgentIndex>& changed,
+               PartialPlan& plan, PlanCost& cost);
+
+/// The same in a copy of the plan that took it over. REQUIRES: it did.
+void repeat(const Attempt& attempt, PartialPlan& copy);
+
+}  // namespace sipplab
