@@ -66,6 +66,7 @@ SolutionDocument document_of(const RefinedPlan& outcome, const PlannerOptions& o
   for (const Try& pass : result.trace) {
     if (!pass.ejected.empty()) document.ejections.push_back({*pass.failed, pass.ejected});
   }
+  document.steps = outcome.steps;
   if (result.status != PlanStatus::kSolved) return document;
   if (outcome.improvement) document.improvement = outcome.improvement->log;
   document.valid = true;
@@ -80,8 +81,13 @@ SolutionDocument document_of(const RefinedPlan& outcome, const PlannerOptions& o
 std::string steps_text(const std::vector<BestStep>& steps) {
   std::string text;
   for (const BestStep& step : steps) {
-    text += fmt::format("step        {}, ssi {}: {} after {} tries, {:.3f} s\n", name(step.kind),
-                        format_ssi(step.ssi_s), name(step.status), step.tries, step.seconds);
+    text += fmt::format("step        {}, ssi {}: {} after {} {}, {:.3f} s", name(step.kind),
+                        format_ssi(step.ssi_s), name(step.status), step.tries,
+                        step.tries == 1 ? "try" : "tries", step.seconds);
+    if (step.cost) {
+      text += fmt::format("; flowtime {:.3f}, makespan {:.3f}", step.cost->flowtime_s, step.cost->makespan_s);
+    }
+    text += '\n';
   }
   return text;
 }
@@ -226,8 +232,8 @@ Command add_plan_command(CLI::App& program) {
   arguments->improve.add_to(*command);
   command->add_flag(
       "--best", arguments->best,
-      "the best plan in 30 s or --time-limit: the method, longer start-safe intervals, ejection, "
-      "the complete planner, then improvement");
+      "the best plan in 30 s or --time-limit: one at once from the complete planner, better ones from the "
+      "method, longer start-safe intervals or ejection, then improvement");
   command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");

@@ -104,10 +104,18 @@ namespace {
 std::vector<db::ProgressRow> progress_rows(const RefinedPlan& refined) {
   std::vector<db::ProgressRow> rows;
   const ImprovementLog& log = refined.improvement->log;
+  const auto add = [&](std::uint64_t iteration, double elapsed_s, const PlanCost& cost) {
+    rows.push_back({static_cast<std::int64_t>(iteration), nanoseconds(elapsed_s), cost.flowtime_s,
+                    cost.makespan_s, log.bound.flowtime_s, log.bound.makespan_s});
+  };
+  // Plans that were in hand before the one that was improved.
+  for (const BestStep& step : refined.steps) {
+    if (step.cost && is_better(log.objective, log.curve.front().cost, *step.cost)) {
+      add(0, step.ended_s, *step.cost);
+    }
+  }
   for (const ProgressPoint& point : log.curve) {
-    rows.push_back({static_cast<std::int64_t>(point.iteration),
-                    nanoseconds(refined.plan.planning_seconds + point.seconds), point.cost.flowtime_s,
-                    point.cost.makespan_s, log.bound.flowtime_s, log.bound.makespan_s});
+    add(point.iteration, refined.plan.planning_seconds + point.seconds, point.cost);
   }
   return rows;
 }

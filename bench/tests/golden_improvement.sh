@@ -70,8 +70,10 @@ less "$(value makespan out)" "$(value makespan ejection.json)" || complain "the 
 expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i --json
 cp out best.json
 valid best.json
+says '"kind": "fallback", "ssi": 3, "status": "solved", "tries": 1, ' best.json
 less "$(value flowtime best.json)" "$(value flowtime ejection.json)" || complain "the best plan is not better"
 expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i
+says '^step        fallback, ssi 3: solved after 1 try, [0-9.]+ s; flowtime [0-9.]+, makespan '
 says '^step        method, ssi 3: '
 says '^curve       seconds'
 
@@ -87,6 +89,8 @@ equal "$(ask 'SELECT count(*) FROM v_progress p JOIN v_progress q USING (run, ca
     OR q.flowtime_s < q.flowtime_bound_s)')" 0 'curves fall, and not below the bound'
 equal "$(ask 'SELECT count(*) FROM (SELECT flowtime_s FROM v_progress GROUP BY repetition HAVING step = max(step))
   JOIN (SELECT DISTINCT flowtime_s FROM v_results) USING (flowtime_s)')" 2 'curves end at the plan'
+equal "$(ask 'SELECT count(DISTINCT flowtime_s) FROM v_progress WHERE iteration = 0')" 2 \
+  'curves begin with the plan of the complete planner, then that of another method'
 expect 0 "${sweep[@]}" --improve 0.05s --objective makespan
 equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner = 'aa-sipp+improve:0.05s,makespan'")" \
   'time|solved' 'the clock ended the improvement'

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/improve/improve.hpp"
+#include "planner/portfolio/best_plan.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/io/input_error.hpp"
 #include "planner/prioritized/options.hpp"
@@ -46,6 +46,7 @@ struct SolutionDocument {
   std::optional<PlannerOptions> options;
   /// Told by JSON, where there is something to tell, and not read back.
   std::vector<EjectionRecord> ejections;
+  std::vector<BestStep> steps;
   std::optional<ImprovementLog> improvement;
 };
 

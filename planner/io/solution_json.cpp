@@ -135,6 +135,31 @@ void append_costs(std::string& out, double flowtime, double makespan) {
   out += '}';
 }
 
+void append_steps(std::string& out, const std::vector<BestStep>& steps) {
+  out += ",\n  \"steps\": [";
+  bool first = true;
+  for (const BestStep& step : steps) {
+    out += first ? "\n    " : ",\n    ";
+    first = false;
+    out += "{\"kind\": \"" + std::string(name(step.kind)) + "\", \"ssi\": ";
+    append_ssi(out, step.ssi_s);
+    out +=
+        ", \"status\": \"" + std::string(name(step.status)) + "\", \"tries\": " + std::to_string(step.tries);
+    out += ", \"seconds\": ";
+    append_number(out, step.seconds);
+    out += ", \"ended\": ";
+    append_number(out, step.ended_s);
+    out += ", \"cost\": ";
+    if (step.cost) {
+      append_costs(out, step.cost->flowtime_s, step.cost->makespan_s);
+    } else {
+      out += "null";
+    }
+    out += '}';
+  }
+  out += "\n  ]";
+}
+
 void append_improvement(std::string& out, const ImprovementLog& log) {
   out += ",\n  \"improvement\": {\"objective\": ";
   append_string(out, format_objective(log.objective));
@@ -204,6 +229,7 @@ std::string solution_to_json(const Instance& instance, const SolutionDocument& d
     append_ssi(out, *document.ssi_kept_s);
   }
   if (!document.ejections.empty()) append_ejections(out, document.ejections);
+  if (!document.steps.empty()) append_steps(out, document.steps);
   if (document.improvement) append_improvement(out, *document.improvement);
   out += "\n}\n";
   return out;

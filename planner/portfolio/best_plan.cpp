@@ -6,6 +6,7 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/limits.hpp"
+#include "planner/solution/solution.hpp"
 
 namespace sipplab {
 namespace {
@@ -18,9 +19,13 @@ constexpr std::uint64_t kEscalationRestarts = 0;
 /// Robots that may fail during ejection, for each robot of the instance. (Trials: one for
 /// every three robots at 192 in the paper's warehouse.)
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
-/// Share of the time limit in which a plan must have been found; then the fallback makes one.
-/// The rest is for improvement, which a plan of the fallback needs more than any other.
-constexpr double kShareBeforeFallback = 0.3;
+/// Steps of the complete planner for a first plan. (Trials: some hundreds, however many robots.)
+constexpr std::uint64_t kFirstPlanSteps = 10'000;
+/// Share of the time limit for that plan.
+constexpr double kShareOfFirstPlan = 0.1;
+/// Share of the time limit in which a better plan must have been found. The rest is for
+/// improvement, which a plan of the complete planner needs more than any other.
+constexpr double kShareBeforeImprovement = 0.3;
 
 class BestPlan {
  public:
@@ -32,21 +37,28 @@ class BestPlan {
 
   BestResult run() {
     const PlannerOptions& planner = options_.planner;
+    if (has_fallback_) fall_back(kFirstPlanSteps, planner.time_limit_s * kShareOfFirstPlan);
     const bool is_found =
         take(BestStep::Kind::kMethod, planner.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
-        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection) ||
-        take(BestStep::Kind::kFallback, planner.ssi_s);
-    if (is_found) improve_it();
+        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection);
+    if (!is_found && has_fallback_ && fallback_.status == PlanStatus::kLimit) {
+      fall_back(UINT64_MAX, time_left_s());
+    }
+    choose(is_found);
+    if (result_.plan.status == PlanStatus::kSolved) improve_it();
     return std::move(result_);
   }
 
  private:
-  double time_left_s() const { return options_.planner.time_limit_s - seconds_since(begin_); }
+  double seconds() const { return seconds_since(begin_); }
+  double time_left_s() const { return options_.planner.time_limit_s - seconds(); }
 
-  /// Until the fallback must have its turn.
-  double time_before_fallback_s() const {
-    const double share = has_fallback_ ? kShareBeforeFallback : 1;
-    return options_.planner.time_limit_s * share - seconds_since(begin_);
+  /// Until improvement must have its turn; with no plan in hand all of the time.
+  double time_before_improvement_s() const {
+    const double share = fallback_.status == PlanStatus::kSolved ? kShareBeforeImprovement
+                         : has_fallback_                         ? kShareBeforeImprovement + kShareOfFirstPlan
+                                                                 : 1;
+    return options_.planner.time_limit_s * share - seconds();
   }
 
   bool escalate(BestStep::Kind kind) {
@@ -68,27 +80,20 @@ class BestPlan {
     return 0;
   }
 
-  /// The options of a step; none where it cannot be taken. The first one always can, others
-  /// only where something is left of every limit; the fallback has the counts anew.
+  /// The options of a step other than the fallback; none where it cannot be taken. The first
+  /// one always can, others only where something is left of every limit.
   std::optional<PlannerOptions> options_of(BestStep::Kind kind, double ssi_s) const {
-    const PlanResult& before = result_.plan;
-    const bool is_first = result_.steps.empty();
+    const bool is_first = planned_.trace.empty();
     PlannerOptions step = options_.planner;
     step.ssi_s = ssi_s;
     step.fallback = Fallback::kNone;
-    if (kind == BestStep::Kind::kFallback) {
-      if (!has_fallback_) return std::nullopt;
-      step.method = Method::kComplete;
-      step.time_limit_s = time_left_s();
-      return step;
-    }
     if (!is_first) {
-      if (before.tries() > step.max_restarts || before.statistics.expansions >= step.max_expansions) {
+      if (planned_.tries() > step.max_restarts || planned_.statistics.expansions >= step.max_expansions) {
         return std::nullopt;
       }
-      step = left_of(step, before);
+      step = left_of(step, planned_);
     }
-    step.time_limit_s = time_before_fallback_s();
+    step.time_limit_s = time_before_improvement_s();
     if (!is_first && search_limits(step, Clock::now()).is_over()) return std::nullopt;
     step.max_restarts = std::min(step.max_restarts, restarts_of(kind));
     if (kind == BestStep::Kind::kEjection) step.rescheduling = Rescheduling::kEjection;
@@ -99,11 +104,37 @@ class BestPlan {
   bool take(BestStep::Kind kind, double ssi_s) {
     const std::optional<PlannerOptions> step = options_of(kind, ssi_s);
     if (!step) return false;
-    PlanResult next = plan(instance_, *step);
-    result_.steps.push_back({kind, ssi_s, next.status, next.tries(), next.planning_seconds});
-    prepend(result_.plan, next);
-    result_.plan = std::move(next);
-    return result_.plan.status == PlanStatus::kSolved;
+    take_step(kind, *step, planned_);
+    return planned_.status == PlanStatus::kSolved;
+  }
+
+  /// The complete planner, which has the counts of the limits for itself.
+  void fall_back(std::uint64_t most_steps, double time_limit_s) {
+    PlannerOptions step = options_.planner;
+    step.method = Method::kComplete;
+    step.max_expansions = std::min(step.max_expansions, most_steps);
+    step.time_limit_s = time_limit_s;
+    take_step(BestStep::Kind::kFallback, step, fallback_);
+  }
+
+  /// Its tries and work are added to those of `before`, whose plan is none.
+  void take_step(BestStep::Kind kind, const PlannerOptions& options, PlanResult& before) {
+    PlanResult next = plan(instance_, options);
+    BestStep step{kind, options.ssi_s, next.status, next.tries(), next.planning_seconds, seconds(), {}};
+    if (next.status == PlanStatus::kSolved) {
+      step.cost = PlanCost{flowtime_s(next.solution), makespan_s(next.solution)};
+    }
+    result_.steps.push_back(step);
+    prepend(before, next);
+    before = std::move(next);
+  }
+
+  /// The plan of the last step, which keeps the promise of start-safe intervals; else that of
+  /// the complete planner. What the others took comes before it.
+  void choose(bool is_found) {
+    const bool takes_fallback = !is_found && has_fallback_;
+    result_.plan = std::move(takes_fallback ? fallback_ : planned_);
+    prepend(takes_fallback ? planned_ : fallback_, result_.plan);
   }
 
   void improve_it() {
@@ -119,6 +150,8 @@ class BestPlan {
   const BestOptions& options_;
   bool has_fallback_;  ///< whether the complete planner knows such instances
   Clock::time_point begin_;
+  PlanResult fallback_;  ///< of the complete planner
+  PlanResult planned_;   ///< of the other steps
   BestResult result_;
 };
 
