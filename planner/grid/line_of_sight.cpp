@@ -63,21 +63,22 @@ CellRun swept_run(Cell displacement, double radius, std::int32_t row) {
   return mirror_x ? CellRun{-last, -first} : CellRun{first, last};
 }
 
-SweptRuns::SweptRuns(double radius, std::int32_t reach)
+SweptRuns::SweptRuns(double radius, std::int32_t reach, std::int32_t longest)
     : radius_(radius),
+      longest_kept_(std::min(longest, kLongestKept)),
       reach_(reach),
-      begins_(static_cast<std::size_t>((kLongestKept + 1) * (kLongestKept + 1)), 0),
+      begins_(static_cast<std::size_t>((longest_kept_ + 1) * (longest_kept_ + 1)), 0),
       kept_(1) {}
 
 std::span<const CellRun> SweptRuns::of(Cell displacement) {
   const auto rows = static_cast<std::size_t>(displacement.y + 2 * reach_ + 1);
-  if (displacement.x > kLongestKept || displacement.y > kLongestKept) {
+  if (displacement.x > longest_kept_ || displacement.y > longest_kept_) {
     scratch_.clear();
     append(displacement, scratch_);
     return scratch_;
   }
   std::uint32_t& begin =
-      begins_[static_cast<std::size_t>(displacement.y * (kLongestKept + 1) + displacement.x)];
+      begins_[static_cast<std::size_t>(displacement.y * (longest_kept_ + 1) + displacement.x)];
   if (begin == 0) {
     begin = static_cast<std::uint32_t>(kept_.size());
     append(displacement, kept_);
@@ -96,7 +97,7 @@ LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
       height_(map.height()),
       radius_(radius_cells),
       reach_(static_cast<std::int32_t>(std::ceil(radius_cells - 0.5 - kTouchDepthCells))),
-      runs_(radius_cells, reach_) {
+      runs_(radius_cells, reach_, std::max(map.width(), map.height())) {
   const auto stride = static_cast<std::size_t>(width_) + 1;
   summed_.assign(stride * (static_cast<std::size_t>(height_) + 1), 0);
   in_row_.assign(stride * static_cast<std::size_t>(height_), 0);

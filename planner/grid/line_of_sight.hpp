@@ -26,11 +26,13 @@ CellRun swept_run(Cell displacement, double radius, std::int32_t row);
 class SweptRuns {
  public:
   /// Displacements longer than this many cells in either direction are made anew each
-  /// time: they are rare, and the table must stay small (at most 4 MiB).
-  static constexpr std::int32_t kLongestKept = 64;
+  /// time: they are rare, and the table must stay small (some 30 MiB where a map is as large
+  /// and all are asked for).
+  static constexpr std::int32_t kLongestKept = 192;
 
-  /// `reach`: rows above and below the way that the disk can overlap.
-  SweptRuns(double radius, std::int32_t reach);
+  /// `reach`: rows above and below the way that the disk can overlap. `longest`: no displacement
+  /// that is asked for is longer in either direction, nor needs room.
+  SweptRuns(double radius, std::int32_t reach, std::int32_t longest);
 
   /// Runs for rows -reach..displacement.y + reach, in order. Valid until the next call.
   /// REQUIRES: displacement.x >= 0 and displacement.y >= 0.
@@ -40,6 +42,7 @@ class SweptRuns {
   void append(Cell displacement, std::vector<CellRun>& runs) const;
 
   double radius_;
+  std::int32_t longest_kept_;
   std::int32_t reach_;
   std::vector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not there yet
   std::vector<CellRun> kept_;

@@ -37,7 +37,7 @@ class LargeNeighbourhoodSearch {
     fill(given, order, options.ssi_s, planners);
     if (!plan().order()) fill(given, order, 0, planners);
     cost_ = cost_of(instance_, plan());
-    find_bounds(*planners.front());
+    find_bounds(planners);
     note_progress(0);
   }
 
@@ -67,15 +67,22 @@ class LargeNeighbourhoodSearch {
   }
 
   /// The fastest way of each robot alone, and from these what no plan can beat.
-  void find_bounds(SingleAgentPlanner& planner) {
-    PartialPlan nobody(instance_, 0, planner);
-    std::vector<double> solo_cells;
-    for (AgentIndex agent = 0; agent < instance_.agents.size(); ++agent) {
-      Expected<Trajectory, PlanFailure> alone = nobody.find(agent, {}, result_.statistics);
-      fastest_ways_.push_back(alone ? std::move(*alone) : plan().trajectory(agent));
-      solo_cells.push_back(length_cells(fastest_ways_.back()));
+  void find_bounds(Planners planners) {
+    std::vector<std::unique_ptr<PartialPlan>> nobody;  // planned yet, once for each thread
+    for (SingleAgentPlanner* planner : planners) {
+      nobody.push_back(std::make_unique<PartialPlan>(instance_, 0, *planner));
     }
-    static_times_s_ = static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells);
+    fastest_ways_.resize(instance_.agents.size());
+    std::vector<double> solo_cells(instance_.agents.size());
+    std::vector<SearchStatistics> work(planners.size());
+    for_each_in_parallel(planners.size(), fastest_ways_.size(), [&](std::size_t worker, AgentIndex agent) {
+      Expected<Trajectory, PlanFailure> alone = nobody[worker]->find(agent, {}, work[worker]);
+      fastest_ways_[agent] = alone ? std::move(*alone) : plan().trajectory(agent);
+      solo_cells[agent] = length_cells(fastest_ways_[agent]);
+    });
+    for (const SearchStatistics& done : work) result_.statistics += done;
+    static_times_s_ = static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells,
+                                     static_cast<unsigned>(planners.size()));
     result_.log.bound = lower_bound(static_times_s_);
   }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <queue>
 
+#include "planner/core/parallel.hpp"
 #include "planner/geometry/interval.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/grid/step_table.hpp"
@@ -51,7 +52,7 @@ using OpenCells = std::priority_queue<OpenCell, std::vector<OpenCell>, std::grea
 }  // namespace
 
 double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
-                                double longest) {
+                                double longest, std::size_t most_work) {
   if (line_of_sight.is_clear(from, to)) return distance(from, to);
   std::vector<Corner> corners = cells_of_ellipse(map, line_of_sight, from, to, longest);
   OpenCells open;
@@ -66,7 +67,7 @@ double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_s
     if (here.is_settled) continue;
     here.is_settled = true;
     work += corners.size();
-    if (work > kMostStaticWork) return least.f;
+    if (work > most_work) return least.f;
     if (here.from_start + here.to_goal < shortest && line_of_sight.is_clear(here.cell, to)) {
       shortest = here.from_start + here.to_goal;
     }
@@ -111,22 +112,44 @@ double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight,
   return kForever;
 }
 
-std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells) {
-  std::vector<std::unique_ptr<LineOfSight>> lines_of_sight;  // one for each radius
-  std::vector<double> times_s;
-  for (AgentIndex i = 0; i < instance.agents.size(); ++i) {
-    const Agent& agent = instance.agents[i];
-    auto known = std::find_if(lines_of_sight.begin(), lines_of_sight.end(),
-                              [&](const auto& other) { return other->radius_cells() == agent.radius_cells; });
-    if (known == lines_of_sight.end()) {
-      known = lines_of_sight.insert(known, std::make_unique<LineOfSight>(instance.map, agent.radius_cells));
-    }
-    const double cells =
-        any_angle ? shortest_any_angle_cells(instance.map, **known, agent.start, agent.goal, solo_cells[i])
-                  : shortest_grid_cells(instance.map, **known, agent.start, agent.goal, connectedness);
-    times_s.push_back(cells / agent.speed_cells_per_s);
+namespace {
+
+/// Lines of sight of one thread: they remember what they were asked.
+class LinesOfSight {
+ public:
+  explicit LinesOfSight(const GridMap& map) : map_(map) {}
+
+  const LineOfSight& of(double radius_cells) {
+    auto known = std::find_if(all_.begin(), all_.end(),
+                              [&](const auto& other) { return other->radius_cells() == radius_cells; });
+    if (known == all_.end()) known = all_.insert(known, std::make_unique<LineOfSight>(map_, radius_cells));
+    return **known;
   }
+
+ private:
+  const GridMap& map_;
+  std::vector<std::unique_ptr<LineOfSight>> all_;  ///< one for each radius
+};
+
+}  // namespace
+
+std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
+                                   const std::vector<double>& solo_cells, unsigned threads) {
+  const std::size_t robots = instance.agents.size();
+  const std::size_t most_work =
+      std::min(kMostStaticWork, kMostStaticWorkOfAll / std::max<std::size_t>(robots, 1));
+  std::vector<LinesOfSight> lines_of_sight;
+  for (unsigned i = 0; i < std::max(threads, 1U); ++i) lines_of_sight.emplace_back(instance.map);
+  std::vector<double> times_s(robots);
+  for_each_in_parallel(lines_of_sight.size(), robots, [&](std::size_t worker, std::size_t i) {
+    const Agent& agent = instance.agents[i];
+    const LineOfSight& sight = lines_of_sight[worker].of(agent.radius_cells);
+    const double cells =
+        any_angle
+            ? shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal, solo_cells[i], most_work)
+            : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
+    times_s[i] = cells / agent.speed_cells_per_s;
+  });
   return times_s;
 }
 

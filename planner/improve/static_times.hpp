@@ -14,26 +14,28 @@ struct LowerBound {
   double makespan_s = 0;  ///< greatest of them
 };
 
+/// Pairs of cells looked at for one robot; about a hundredth of a second. On the paper's
+/// warehouse every robot needs less.
+inline constexpr std::size_t kMostStaticWork = 1'000'000;
+/// ... and for all robots together; about two seconds. Some hundred robots have the former.
+inline constexpr std::size_t kMostStaticWorkOfAll = 200'000'000;
+
 /// Length, in cells, of the shortest way over straight sections between cell centres that a
 /// disk can travel on the map; kForever where there is none.
 ///
 /// A* over all cells in line of sight, limited to those of an ellipse: `longest` is the
 /// length of some way that exists. Exact, but where the work for it would exceed
-/// kMostStaticWork; then the least f in OPEN, which is a lower bound, too.
+/// `most_work`; then the least f in OPEN, which is a lower bound, too.
 double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
-                                double longest);
+                                double longest, std::size_t most_work = kMostStaticWork);
 
 /// The same over the steps of the 2^k neighbourhood; always exact.
 double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to, int k);
 
-/// Pairs of cells looked at for one robot; about a hundredth of a second. On the paper's
-/// warehouse every robot needs less.
-inline constexpr std::size_t kMostStaticWork = 1'000'000;
-
 /// Lower bounds on the arrival of each robot alone on the map, in seconds. `solo_cells` are the
-/// lengths of ways that exist, by robot.
+/// lengths of ways that exist, by robot. The same on any number of threads.
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells);
+                                   const std::vector<double>& solo_cells, unsigned threads = 1);
 
 /// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 where
 /// there is no cost.
