@@ -135,6 +135,8 @@ class TargetRun {
                                 .limit_s = run_.budget_s ? *run_.budget_s + kGraceS : kLongestS});
     run_.wall_time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
     run_.cpu_time_ns = static_cast<std::int64_t>(engine.cpu_time_s * 1e9);
+    // In fork mode the engine's log does not tell of its processes.
+    run_.peak_memory_bytes = engine.peak_memory_bytes;
     ended_well_ = engine.started && !engine.timed_out && engine.exit_code == 0;
   }
 
@@ -165,7 +167,7 @@ class TargetRun {
     }
     run_.edges = log_read.last.edges;
     run_.features = log_read.last.features;
-    run_.peak_memory_bytes = log_read.peak_memory_bytes;
+    run_.peak_memory_bytes = std::max(run_.peak_memory_bytes, log_read.peak_memory_bytes);
     run_.slowest_input_s = log_read.slowest_input_s;
     run_.snapshots = std::move(log_read.snapshots);
     for (const fs::path& file : files_in(corpus())) {
