@@ -222,8 +222,8 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
       "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
       "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
       "peak_memory_bytes, "
-      "limit_struck, message, made_by, ssi_kept_s) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "limit_struck, message, made_by, ssi_kept_s, instructions) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the results of a case");
   if (!insert) return Unexpected{insert.error()};
   auto keys = InstanceKeys::prepare(database_.connection());
@@ -237,7 +237,7 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                  row.planning_time_ns, row.makespan_s, row.flowtime_s, to_count(row.tries),
                  to_count(row.expansions), to_count(row.generations), plan_hash, row.valid, row.violations,
                  row.min_clearance_cells, row.peak_memory_bytes, null_if_empty(row.limit),
-                 null_if_empty(row.message), null_if_empty(row.made_by), row.ssi_kept_s);
+                 null_if_empty(row.message), null_if_empty(row.made_by), row.ssi_kept_s, row.instructions);
     if (auto done = insert->run(); !done) return done;
     if (row.progress.empty()) continue;
     if (auto done = write_progress(cell_id, *instance_key, row); !done) return done;

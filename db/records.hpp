@@ -145,10 +145,11 @@ struct ResultRow {
   std::optional<std::int64_t> peak_memory_bytes;
   /// Which limit struck: "time", "expansions", "restarts", "memory"; else empty.
   std::string limit;
-  std::string message;                     ///< the first violation in words; else empty
-  std::string made_by;                     ///< "prioritized", "complete"; empty: another program
-  std::optional<double> ssi_kept_s;        ///< may be infinite
-  std::vector<ProgressRow> progress = {};  ///< of improvement, in order of time; else empty
+  std::string message;                       ///< the first violation in words; else empty
+  std::string made_by;                       ///< "prioritized", "complete"; empty: another program
+  std::optional<double> ssi_kept_s;          ///< may be infinite
+  std::optional<std::int64_t> instructions;  ///< of planning, in user space
+  std::vector<ProgressRow> progress = {};    ///< of improvement, in order of time; else empty
 };
 
 enum class RunStatus {

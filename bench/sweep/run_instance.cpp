@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "bench/sweep/instruction_count.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -124,8 +126,11 @@ std::vector<db::ProgressRow> progress_rows(const RefinedPlan& refined) {
 
 db::ResultRow run_refined(const Instance& instance, const PlannerOptions& options,
                           const Refinement& refinement) {
+  const InstructionCount instructions;
   const RefinedPlan refined = plan_refined(instance, options, refinement);
+  const std::optional<std::int64_t> counted = instructions.count();
   db::ResultRow row = described(options, refined.plan);
+  row.instructions = counted;
   row.planning_time_ns = nanoseconds(refined.seconds());
   row.expansions = refined.statistics().expansions;
   row.generations = refined.statistics().generations;
@@ -139,7 +144,12 @@ db::ResultRow run_refined(const Instance& instance, const PlannerOptions& option
 }
 
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
-  return judged(instance, options, plan(instance, options));
+  const InstructionCount instructions;
+  const PlanResult result = plan(instance, options);
+  const std::optional<std::int64_t> counted = instructions.count();
+  db::ResultRow row = judged(instance, options, result);
+  row.instructions = counted;
+  return row;
 }
 
 }  // namespace sipplab::bench

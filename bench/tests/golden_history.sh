@@ -62,7 +62,7 @@ for version in 1 2 3 4 5 6 7 8 9 10; do
       SELECT (SELECT max(id) FROM run), case_id, finished_utc, result_count FROM cell WHERE run_id = 2;
     INSERT INTO result SELECT new.id, instance_id, position, repetition,
              iif($version > 5 AND position = 0, 1, status), planning_time_ns, makespan_s, flowtime_s, tries, expansions,
-             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s
+             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions
       FROM cell AS old JOIN result ON result.cell_id = old.id
       JOIN cell AS new ON new.case_id = old.case_id AND new.run_id = (SELECT max(id) FROM run) WHERE old.run_id = 2;"
 done

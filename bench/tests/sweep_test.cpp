@@ -1,12 +1,14 @@
 // What a sweep promises before anything is run or recorded: verdicts, names, the order
 // of files, filters, and which cases a request means.
 #include <gtest/gtest.h>
+#include <linux/perf_event.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bench/suites.hpp"
@@ -14,6 +16,7 @@
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/instruction_count.hpp"
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/generator/generator.hpp"
@@ -94,6 +97,26 @@ TEST(PeakMemory, IsThatOfTheTimeSinceItBegan) {
   constexpr auto kMost = static_cast<std::int64_t>(kBytes * 9 / 10);
   EXPECT_GE(*whole.bytes(), *at_first + kMost);
   EXPECT_LE(*PeakMemory().bytes(), *whole.bytes() - kMost);
+}
+
+TEST(PerfCounter, CountsWhatIsDoneAfterItBegan) {
+  // Processor time in nanoseconds: a counter of the kernel's own, on every machine that permits any.
+  const PerfCounter processor_time(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_TASK_CLOCK);
+  const std::optional<std::int64_t> at_first = processor_time.count();
+  if (!at_first) return;  // forbidden on this system
+  const auto work = [] {
+    volatile unsigned sum = 0;
+    for (unsigned i = 0; i < 1'000'000; ++i) sum = sum + i;
+  };
+  std::thread(work).join();
+  const std::int64_t of_a_thread = *processor_time.count() - *at_first;
+  EXPECT_GT(of_a_thread, 100'000);
+  EXPECT_LT(*PerfCounter(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_TASK_CLOCK).count(), of_a_thread);
+}
+
+TEST(PerfCounter, NothingIsCountedWhereThereIsNoSuchCounter) {
+  constexpr std::uint64_t kNoEvent = 0xffff;
+  EXPECT_FALSE(PerfCounter(PERF_TYPE_SOFTWARE, kNoEvent).count());
 }
 
 TEST(PlannerName, SaysWhatThePlannerIsMadeOf) {
