@@ -25,6 +25,8 @@ using Clock = std::chrono::steady_clock;
 /// What an input may cost, as the engine is told; fuzz/replay/ judges by the same.
 constexpr int kMaxInputBytes = 4096;
 constexpr int kInputTimeoutS = 10;
+/// An input that alone takes less than this part of that is not slow.
+constexpr int kQuickShare = 5;
 constexpr int kMemoryLimitMb = 1024;
 /// Seconds that an engine gets to come to its end beyond its budget, the merge of a corpus
 /// included; after that it is killed.
@@ -77,7 +79,8 @@ class TargetRun {
     if (run_.mode == "nightly") minimise_corpus();
     read_log();
     const auto inputs = take_artifacts();
-    if (inputs.empty() && !ended_well_) run_.status = "broken";
+    const bool was_stopped = run_.timeouts > 0;  // by an input that is not slow: the engine ends there
+    if (inputs.empty() && !ended_well_ && !was_stopped) run_.status = "broken";
     const auto id = db::record_fuzz_run(database_, origin_, run_);
     if (!id) return Unexpected{id.error()};
     return record_findings(inputs, *id);
@@ -177,6 +180,13 @@ class TargetRun {
     }
   }
 
+  /// Whether it was the machine that took the time, busy or asleep, and not the input.
+  bool is_quick_alone(const std::string& input) {
+    const Clock::time_point begin = Clock::now();
+    if (program_.judge(input).verdict == Verdict::kBreaks) return false;
+    return Clock::now() - begin < std::chrono::seconds(kInputTimeoutS) / kQuickShare;
+  }
+
   /// Inputs by the kind that the engine named them after. Exit codes say nothing: in fork
   /// mode an engine ends with 0 although inputs lie there.
   std::vector<std::pair<std::string, std::string>> take_artifacts() {
@@ -191,7 +201,9 @@ class TargetRun {
                                                   : nullptr;
       if (counter == nullptr) continue;  // slow units are in the statistics
       ++*counter;
-      inputs.emplace_back(kind, text_of(file));
+      std::string input = text_of(file);
+      if (kind == "timeout" && is_quick_alone(input)) continue;
+      inputs.emplace_back(kind, std::move(input));
     }
     run_.status = inputs.empty() ? "clean" : "findings";
     return inputs;

@@ -107,6 +107,20 @@ printf '#!/bin/sh\nexit 1\n' >programs/quiet
 expect_code 3 "${run[@]}" --target quiet
 expect_sql 'broken' "SELECT status FROM fuzz_run WHERE target = 'quiet' ORDER BY id DESC LIMIT 1"
 
+# The machine slept, or was busy: an input that alone is quick was no slow one.
+mkdir sources/corpus/stalled
+cat >programs/stalled <<'ENGINE'
+#!/usr/bin/env bash
+for argument in "$@"; do case $argument in -artifact_prefix=*) prefix=${argument#*=} ;; esac; done
+printf '...\nrobot 0 0 to 2 0\n' >"${prefix}timeout-0"
+exit 70
+ENGINE
+chmod +x programs/stalled
+ln -s "$replay" programs/replay_stalled
+expect_code 0 "${run[@]}" --target stalled
+expect_sql 'clean|1' "SELECT status, timeouts FROM fuzz_run WHERE target = 'stalled'"
+expect_sql '1' 'SELECT count(*) FROM finding'
+
 # Coverage as llvm-cov sums it up.
 cat >summary.json <<'JSON'
 {"data": [{"files": [
