@@ -114,17 +114,26 @@ void append_indices(std::string& out, const std::vector<AgentIndex>& agents) {
   out += ']';
 }
 
-void append_ejections(std::string& out, const std::vector<EjectionRecord>& ejections) {
-  out += ",\n  \"ejections\": [";
+/// A list with one element a line.
+template <class Elements, class Append>
+void append_lines(std::string& out, const Elements& elements, Append&& append) {
+  out += '[';
   bool first = true;
-  for (const EjectionRecord& record : ejections) {
+  for (const auto& element : elements) {
     out += first ? "\n    " : ",\n    ";
     first = false;
+    append(element);
+  }
+  out += "\n  ]";
+}
+
+void append_ejections(std::string& out, const std::vector<EjectionRecord>& ejections) {
+  out += ",\n  \"ejections\": ";
+  append_lines(out, ejections, [&out](const EjectionRecord& record) {
     out += "{\"failed\": " + std::to_string(record.failed) + ", \"ejected\": ";
     append_indices(out, record.ejected);
     out += '}';
-  }
-  out += "\n  ]";
+  });
 }
 
 void append_costs(std::string& out, double flowtime, double makespan) {
@@ -136,16 +145,12 @@ void append_costs(std::string& out, double flowtime, double makespan) {
 }
 
 void append_steps(std::string& out, const std::vector<BestStep>& steps) {
-  out += ",\n  \"steps\": [";
-  bool first = true;
-  for (const BestStep& step : steps) {
-    out += first ? "\n    " : ",\n    ";
-    first = false;
+  out += ",\n  \"steps\": ";
+  append_lines(out, steps, [&out](const BestStep& step) {
     out += "{\"kind\": \"" + std::string(name(step.kind)) + "\", \"ssi\": ";
     append_ssi(out, step.ssi_s);
-    out +=
-        ", \"status\": \"" + std::string(name(step.status)) + "\", \"tries\": " + std::to_string(step.tries);
-    out += ", \"seconds\": ";
+    out += ", \"status\": \"" + std::string(name(step.status)) + "\"";
+    out += ", \"tries\": " + std::to_string(step.tries) + ", \"seconds\": ";
     append_number(out, step.seconds);
     out += ", \"ended\": ";
     append_number(out, step.ended_s);
@@ -156,8 +161,7 @@ void append_steps(std::string& out, const std::vector<BestStep>& steps) {
       out += "null";
     }
     out += '}';
-  }
-  out += "\n  ]";
+  });
 }
 
 void append_improvement(std::string& out, const ImprovementLog& log) {
@@ -171,11 +175,8 @@ void append_improvement(std::string& out, const ImprovementLog& log) {
   const PlanCost& last = log.curve.back().cost;
   out += ", \"gap\": ";
   append_costs(out, gap(last.flowtime_s, log.bound.flowtime_s), gap(last.makespan_s, log.bound.makespan_s));
-  out += ", \"curve\": [";
-  bool first = true;
-  for (const ProgressPoint& point : log.curve) {
-    out += first ? "\n    " : ",\n    ";
-    first = false;
+  out += ", \"curve\": ";
+  append_lines(out, log.curve, [&out](const ProgressPoint& point) {
     out += "{\"seconds\": ";
     append_number(out, point.seconds);
     out += ", \"iteration\": " + std::to_string(point.iteration) + ", \"flowtime\": ";
@@ -183,8 +184,8 @@ void append_improvement(std::string& out, const ImprovementLog& log) {
     out += ", \"makespan\": ";
     append_number(out, point.cost.makespan_s);
     out += '}';
-  }
-  out += "\n  ]}";
+  });
+  out += '}';
 }
 
 }  // namespace
