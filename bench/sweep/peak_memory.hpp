@@ -7,7 +7,8 @@
 namespace sipplab::bench {
 
 /// The most memory that the process had at one time, from a moment on. Linux alone can begin
-/// anew, by /proc/self/clear_refs; elsewhere nothing is measured. Some microseconds.
+/// anew, by /proc/self/clear_refs; elsewhere nothing is measured. A later one begins anew for
+/// those before it, too. Some microseconds.
 class PeakMemory {
  public:
   /// Begins now.
