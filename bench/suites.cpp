@@ -185,7 +185,7 @@ Suite anytime() {
   return suite;
 }
 
-/// Seconds: four times what the largest instance takes.
+/// Seconds: far more than any of its instances takes on a machine of today.
 constexpr double kScaleLimitS = 3600;
 
 /// One robot for every sixteen cells, from hundreds to more than ten thousand: how time and

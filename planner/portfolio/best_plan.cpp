@@ -41,7 +41,7 @@ class BestPlan {
     const bool is_found =
         take(BestStep::Kind::kMethod, planner.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
         take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection);
-    if (!is_found && has_fallback_ && fallback_.status == PlanStatus::kLimit) {
+    if (!is_found && fallback_.status == PlanStatus::kLimit) {
       fall_back(UINT64_MAX, time_left_s());
     }
     choose(is_found);
@@ -53,11 +53,12 @@ class BestPlan {
   double seconds() const { return seconds_since(begin_); }
   double time_left_s() const { return options_.planner.time_limit_s - seconds(); }
 
-  /// Until improvement must have its turn; with no plan in hand all of the time.
+  /// Until improvement must have its turn, or the complete planner again; without either all
+  /// of the time is for the other steps.
   double time_before_improvement_s() const {
-    const double share = fallback_.status == PlanStatus::kSolved ? kShareBeforeImprovement
-                         : has_fallback_                         ? kShareBeforeImprovement + kShareOfFirstPlan
-                                                                 : 1;
+    double share = 1;
+    if (fallback_.status == PlanStatus::kSolved) share = kShareBeforeImprovement;
+    if (fallback_.status == PlanStatus::kLimit) share = kShareBeforeImprovement + kShareOfFirstPlan;
     return options_.planner.time_limit_s * share - seconds();
   }
 
@@ -150,7 +151,7 @@ class BestPlan {
   const BestOptions& options_;
   bool has_fallback_;  ///< whether the complete planner knows such instances
   Clock::time_point begin_;
-  PlanResult fallback_;  ///< of the complete planner
+  PlanResult fallback_;  ///< of the complete planner; failed where it was not asked
   PlanResult planned_;   ///< of the other steps
   BestResult result_;
 };
