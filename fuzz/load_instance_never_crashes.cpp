@@ -41,8 +41,9 @@ class MemoryFile {
     }
   }
   const std::string& hold(std::string_view text) {
-    const bool written = ftruncate(file_, 0) == 0 &&
-                         pwrite(file_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+    // In this sequence, so that its pages are used again.
+    const auto size = static_cast<ssize_t>(text.size());
+    const bool written = pwrite(file_, text.data(), text.size(), 0) == size && ftruncate(file_, size) == 0;
     if (!written) std::abort();
     return path_;
   }
