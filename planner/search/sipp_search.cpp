@@ -11,7 +11,7 @@ namespace {
 
 /// Width of a bucket of OPEN, in cells of way: small enough that few entries are sorted for
 /// nothing, wide enough that few buckets are empty.
-constexpr double kBucketCells = 0.25;
+constexpr double kBucketCells = 0.1;
 
 /// Expansions between two looks at the clock; one takes some microseconds.
 constexpr std::uint64_t kExpansionsPerClockCheck = 64;
@@ -53,6 +53,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
     const OpenList::Entry entry = open_.pop_min();
     const NodeId id = entry.node;
     if (entry.f > limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
+    if (is_overtaken(entry)) continue;
     if (entry.is_promise()) {
       if (!relax(entry.from, entry.parent, id, statistics)) continue;
       // Kept to the letter, the promise makes its node the next one of OPEN at once.
@@ -60,8 +61,6 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
         open_.push(id, f(nodes_[id]), nodes_[id].arrival_s);
         continue;
       }
-    } else if (entry.arrival_s > nodes_[id].arrival_s) {
-      continue;  // an earlier arrival was found after this was queued
     }
     if (is_goal(nodes_[id])) return reconstruct(id);
     if (statistics.expansions - expansions_before >= limits.max_expansions) {
@@ -122,6 +121,13 @@ double SippSearch::lower_bound_s(Cell from, Cell to) const {
 
 double SippSearch::travel_s(Cell from, Cell to) const {
   return distance(from, to) / agent_->speed_cells_per_s;
+}
+
+bool SippSearch::is_overtaken(const OpenList::Entry& entry) const {
+  const double known_s = nodes_[entry.node].arrival_s;
+  if (entry.arrival_s != known_s || !entry.is_promise()) return entry.arrival_s > known_s;
+  // By steps along a straight line one may arrive sooner, by a rounding, and that way is kept.
+  return entry.parent == kNoNode || !is_on_the_way(entry.parent, entry.from, entry.node);
 }
 
 bool SippSearch::is_goal(const SippNode& node) const {

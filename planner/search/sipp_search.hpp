@@ -66,6 +66,8 @@ class SippSearch final : public SingleAgentPlanner {
   /// A lower bound on the arrival at the goal by way of the node.
   static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
   bool is_goal(const SippNode& node) const;
+  /// Whether an arrival that leaves nothing to gain was found after this was queued.
+  bool is_overtaken(const OpenList::Entry& entry) const;
 
   void expand(NodeId id, SearchStatistics& statistics);
   /// Promises the nodes of `cell`, a neighbour of `from`, that may be reached from it in
