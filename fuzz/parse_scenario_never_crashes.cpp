@@ -1,6 +1,9 @@
 // Claim: no bytes, taken as a MovingAI scenario, make the reader crash or take memory that
-// they are not due; a refusal is one line, and a scenario that is accepted reads back equal.
+// they are not due; a refusal is one line, and a scenario that is accepted is what the text
+// says and reads back equal.
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/reading.hpp"
@@ -31,6 +34,32 @@ void check_read_back(const MovingaiScenario& scenario) {
                 "a scenario reads back as another");
 }
 
+/// The plainest reader: below the first line, each row ends with the sizes of the map, start,
+/// goal and a length.
+bool is_said_by(const std::string& text, const MovingaiScenario& scenario) {
+  constexpr std::size_t kWordsAtLeast = 8;  // a bucket, numbers; a map's name can be invisible
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  std::size_t robots = 0;
+  for (int number = 2; std::getline(lines, line); ++number) {
+    std::istringstream row(line);
+    std::vector<std::string> words;
+    for (std::string word; row >> word;) words.push_back(word);
+    if (words.empty()) continue;
+    if (words.size() < kWordsAtLeast || robots == scenario.agents.size()) return false;
+    const auto said = [&words](std::size_t from_end) { return std::stol(words[words.size() - from_end]); };
+    const Agent& agent = scenario.agents[robots];
+    if (said(7) != scenario.map_width || said(6) != scenario.map_height || said(5) != agent.start.x ||
+        said(4) != agent.start.y || said(3) != agent.goal.x || said(2) != agent.goal.y ||
+        scenario.agent_lines[robots] != number) {
+      return false;
+    }
+    ++robots;
+  }
+  return robots == scenario.agents.size();
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -40,6 +69,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!scenario) return 0;
   fuzz::require(Claim::kReadsBackEqual, scenario->agents.size() == scenario->agent_lines.size(),
                 "robots without a line");
+  fuzz::require(Claim::kReadsWhatItSays, is_said_by(std::string(text), *scenario),
+                "a scenario that the text does not say");
   check_read_back(*scenario);
   return 0;
 }

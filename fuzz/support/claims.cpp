@@ -16,14 +16,18 @@ namespace sipplab::fuzz {
 namespace {
 
 constexpr std::array<std::string_view, kClaims> kClaimNames = {
-    "refusal is one line",     "reads back equal",        "memory in proportion",
-    "result is whole",         "plan is valid",           "plan is certified",
-    "costs are arrivals",      "same input same plan",    "final order explains plan",
-    "unreachable is unsolved", "lone robot is exact",     "re-scheduling loses none",
-    "last robot at zero",      "last goal is free",       "budget is kept",
-    "trace follows rules",     "verdict is invariant",    "planted defect is found",
-    "closed form is right",    "sight is exact",          "twins agree",
-    "complete is complete",    "improvement is no worse",
+    "refusal is one line",      "reads back equal",
+    "reads what it says",       "memory in proportion",
+    "result is whole",          "plan is valid",
+    "plan is certified",        "costs are arrivals",
+    "same input same plan",     "final order explains plan",
+    "unreachable is unsolved",  "lone robot is exact",
+    "re-scheduling loses none", "last robot at zero",
+    "last goal is free",        "budget is kept",
+    "trace follows rules",      "verdict is invariant",
+    "planted defect is found",  "closed form is right",
+    "sight is exact",           "twins agree",
+    "complete is complete",     "improvement is no worse",
 };
 constexpr std::array<std::string_view, kEvents> kEventNames = {
     "inputs",           "accepted",  "refused",      "valid instances", "two robots", "solved",

@@ -14,6 +14,7 @@ namespace sipplab::fuzz {
 enum class Claim : std::uint8_t {
   kRefusalIsOneLine,        ///< a refused text is refused in one line, with a line number of that text
   kReadsBackEqual,          ///< read(write(read(x))) == read(x)
+  kReadsWhatItSays,         ///< the plainest reader takes the same from an accepted text
   kMemoryInProportion,      ///< reading takes no more memory than a text of this size is due
   kResultIsWhole,           ///< solved: a trajectory for each robot; else none
   kPlanIsValid,             ///< the validator accepts every plan, its start-safe intervals too
@@ -36,7 +37,7 @@ enum class Claim : std::uint8_t {
   kCompleteIsComplete,      ///< the complete planner solves exactly what an exhaustive search solves
   kImprovementIsNoWorse,    ///< an improved plan costs no more than the plan that was given
 };
-inline constexpr std::size_t kClaims = 23;
+inline constexpr std::size_t kClaims = 24;
 std::string_view name(Claim claim);
 
 /// What an input turned out to be.

@@ -37,6 +37,11 @@ void check_refusal(const InputError& error, std::string_view text) {
           "a refusal that names a line which the text does not have");
 }
 
+void check_refusal_of_text(const InputError& error, std::string_view text) {
+  require(Claim::kRefusalIsOneLine, error.line >= 1, "a refusal of a text that names no line");
+  check_refusal(error, text);
+}
+
 void check_warning(const std::string& warning) {
   require(Claim::kRefusalIsOneLine, is_one_line(warning), "a warning that is not one line");
 }

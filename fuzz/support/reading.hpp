@@ -11,8 +11,11 @@
 namespace sipplab::fuzz {
 
 /// A refusal is one printable line that names the file and a line of the text (or the one
-/// after the last, for what is missing at the end).
+/// after the last, for what is missing at the end), or no line: 0.
 void check_refusal(const InputError& error, std::string_view text);
+
+/// The same where there is a text: a line of it is named.
+void check_refusal_of_text(const InputError& error, std::string_view text);
 
 /// The same for a warning: one printable line.
 void check_warning(const std::string& warning);
@@ -44,7 +47,7 @@ auto read_checked(std::string_view text, const Read& read) {
     return read();
   }();
   count(input ? Event::kAccepted : Event::kRefused);
-  if (!input) check_refusal(input.error(), text);
+  if (!input) check_refusal_of_text(input.error(), text);
   return input;
 }
 

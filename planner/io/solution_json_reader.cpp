@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "planner/io/json_line.hpp"
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/text.hpp"
 
@@ -13,16 +14,17 @@ namespace {
 using nlohmann::json;
 
 /// Takes values out of a parsed document; the first complaint is kept, and says
-/// where in the document it is about ("trajectories[3].motions[0].t1").
+/// what in the document it is about ("trajectories[3].motions[0].t1").
 class JsonReader {
  public:
-  explicit JsonReader(const std::string& file_name) : file_name_(file_name) {}
+  /// Both must outlive it.
+  JsonReader(std::string_view text, const std::string& file_name) : text_(text), file_name_(file_name) {}
 
   void fail(const std::string& where, const std::string& expected) {
-    if (!error_) error_ = InputError{file_name_, 0, where + " is missing or of the wrong kind", expected};
+    fail_with(where, where + " is missing or of the wrong kind", expected);
   }
-  void fail_with(const std::string& what, const std::string& expected) {
-    if (!error_) error_ = InputError{file_name_, 0, what, expected};
+  void fail_with(const std::string& where, const std::string& what, const std::string& expected) {
+    if (!error_) error_ = InputError{file_name_, json_line(text_, where), what, expected};
   }
   const std::optional<InputError>& error() const { return error_; }
 
@@ -78,6 +80,7 @@ class JsonReader {
   }
 
  private:
+  std::string_view text_;
   const std::string& file_name_;
   std::optional<InputError> error_;
 };
@@ -99,7 +102,8 @@ Trajectory read_trajectory(JsonReader& reader, const json& value, const std::str
          {reader.coordinate(motion, "x1", here), reader.coordinate(motion, "y1", here)},
          reader.number_or_null(motion, "turn_to", here)});
     if (trajectory.motions.back().is_turn() && !trajectory.motions.back().is_wait()) {
-      reader.fail_with(here + "turn_to in a motion that changes place", "turns in place alone");
+      reader.fail_with(here + "turn_to", here + "turn_to in a motion that changes place",
+                       "turns in place alone");
     }
     if (reader.error()) return trajectory;
   }
@@ -129,11 +133,12 @@ void read_trajectories(JsonReader& reader, const json& document, const Instance&
     const std::string where = "trajectories[" + std::to_string(position) + "].";
     const std::optional<std::string> id = read_id(reader, value, where);
     const std::string problem = collector.add(id, position++, read_trajectory(reader, value, where));
-    if (!problem.empty()) reader.fail_with(problem, "one trajectory for each robot of the instance");
+    if (!problem.empty()) reader.fail_with(where, problem, "one trajectory for each robot of the instance");
     if (reader.error()) return;
   }
   if (const auto missing = collector.missing()) {
-    return reader.fail_with("no trajectory of robot " + in_quotes(instance.agents[*missing].id),
+    return reader.fail_with("trajectories",
+                            "no trajectory of robot " + in_quotes(instance.agents[*missing].id),
                             "one for each robot of the instance");
   }
   solution = collector.take();
@@ -206,7 +211,7 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
     const int line = LineTable(text).line(std::min(offset, text.size()));
     return Unexpected{InputError{file_name, line, "not well-formed JSON", "a complete document"}};
   }
-  JsonReader reader(file_name);
+  JsonReader reader(text, file_name);
   SolutionDocument result;
   result.status = reader.text(document, "status", "solved");
   if (result.status != "solved" && result.status != "failed" && result.status != "limit") {
@@ -221,7 +226,7 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
   result.planning_seconds = reader.number_or_null(document, "planning_seconds").value_or(0);
   result.plan_hash = reader.text(document, "plan_hash", "");
   if (reader.find(document, "robots") && reader.count(document, "robots") != instance.agents.size()) {
-    reader.fail_with("robots is " + std::to_string(reader.count(document, "robots")),
+    reader.fail_with("robots", "robots is " + std::to_string(reader.count(document, "robots")),
                      "the " + std::to_string(instance.agents.size()) + " of the instance");
   }
   read_order(reader, document, instance, result.order);

@@ -127,7 +127,8 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
     if (!at) trajectory.start = motion.from;
     at = motion.to;
     now_s = motion.end_s;
-    const bool says_nothing = motion.is_wait() && !motion.is_turn() && motion.end_s == motion.begin_s;
+    const bool says_nothing =
+        !options.only_form && motion.is_wait() && !motion.is_turn() && motion.end_s == motion.begin_s;
     if (!says_nothing) trajectory.motions.push_back(motion);
   }
   return trajectory;

@@ -15,7 +15,7 @@ struct SectionOptions {
   /// without exact times whose duration is length / speed to within the published
   /// format's rounding get exactly that duration.
   std::optional<double> speed_cells_per_s;
-  /// Take sections that do not join, or that change place in no time: for a
+  /// Take sections that do not join, that change place or wait in no time: for a
   /// solution, which the validator will judge.
   bool only_form = false;
   /// The robot that made the sections: those that stay in place between two different

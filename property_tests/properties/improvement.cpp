@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "planner/grid/neighbourhood.hpp"
+#include "planner/improve/attempt.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
@@ -58,6 +59,18 @@ ImproveResult improved(const Planned& planned, const ImproveOptions& options) {
 
 PlanCost cost_of(const Solution& solution) { return {flowtime_s(solution), makespan_s(solution)}; }
 
+/// Attempts until one makes the plan better; some cases are too easy for that.
+constexpr std::uint64_t kMostAttempts = 50;
+
+Attempt first_better(const Round& round, PartialPlan& plan) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  for (std::uint64_t i = 0; i < kMostAttempts; ++i) {
+    Attempt attempt = try_neighbourhood(round, plan, Random(seed + i));
+    if (attempt.is_better) return attempt;
+  }
+  return {};
+}
+
 /// Straight sections between all cells at which a disk may be, shortest ways by Floyd and Warshall.
 class AllWays {
  public:
@@ -106,6 +119,31 @@ int main() {
     for (std::size_t i = 1; i + 1 < result.log.curve.size(); ++i) {
       RC_ASSERT(is_better(options.objective, result.log.curve[i].cost, result.log.curve[i - 1].cost));
     }
+  });
+
+  passed &= property("an attempt is taken over where it gains something, and a second time it does not", [] {
+    const Planned planned = any_planned();
+    const Instance& instance = planned.plan_case.instance;
+    RC_PRE(!instance.agents.empty());
+    const std::unique_ptr<SingleAgentPlanner> planner =
+        single_agent_planner(instance, planned.plan_case.options);
+    PartialPlan plan(instance, 0, *planner);
+    const Solution& given = planned.result.solution;
+    for (const AgentIndex agent : planned.result.order()) plan.insert(agent, given.trajectories[agent]);
+    const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20});
+    const RuleRoulette roulette;
+    const std::vector<double> times_s(instance.agents.size());
+    const Round round{instance, objective, roulette, times_s, given.trajectories, cost_of(instance, plan),
+                      {}};
+    const Attempt attempt = first_better(round, plan);
+    RC_ASSERT(plan.solution() == given);
+    RC_PRE(attempt.is_better);
+    PlanCost cost = round.cost;
+    RC_ASSERT(take_over(round, attempt, {}, plan, cost));
+    RC_ASSERT(is_better(objective, cost, round.cost));
+    const Solution better = plan.solution();
+    RC_ASSERT(!take_over(round, attempt, {}, plan, cost));
+    RC_ASSERT(plan.solution() == better);
   });
 
   passed &= property("improve (2)(3): valid, and it keeps the promise where it was kept", [] {

@@ -150,7 +150,7 @@ TEST(IoSolution, TurnsOnTheMoveAreRefused) {
       error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 0, "y0": 0, "x1": 1,
                        "y1": 0, "turn_to": 0}]}]})",
                instance),
-      "s: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place alone");
+      "s:2: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place alone");
   EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,1,0,90\n", instance),
             "s:2: turn_to in a motion that changes place, expected turns in place alone");
   EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,0,0,up\n", instance),
@@ -390,34 +390,43 @@ TEST(IoSolution, BadPlainLinesNameTheLine) {
             "s:2: no line of robot '007', expected one for each robot of the instance");
 }
 
-TEST(IoSolution, BadJsonIsOneLine) {
+TEST(IoSolution, BadJsonNamesTheLine) {
   const Instance instance = awkward_instance();
   EXPECT_EQ(error_of("{\n\"status\": \"solved\",\n", instance),
             "s:3: not well-formed JSON, expected a complete document");
   EXPECT_EQ(error_of("{\"makespan\": 1e999}", instance),
             "s:1: not well-formed JSON, expected a complete document");
-  EXPECT_EQ(error_of("{}", instance), "s: trajectories is missing or of the wrong kind, expected a list");
+  EXPECT_EQ(error_of("{}", instance), "s:1: trajectories is missing or of the wrong kind, expected a list");
   EXPECT_EQ(error_of(R"({"status": "won", "trajectories": []})", instance),
-            "s: status is missing or of the wrong kind, expected solved, failed or limit");
+            "s:1: status is missing or of the wrong kind, expected solved, failed or limit");
   EXPECT_EQ(error_of(R"({"robots": 2, "trajectories": []})", instance),
-            "s: robots is 2, expected the 3 of the instance");
-  EXPECT_EQ(error_of(R"({"order": [3], "trajectories": []})", instance),
-            "s: order[0] is missing or of the wrong kind, expected the position of a robot, counted from 0");
+            "s:1: robots is 2, expected the 3 of the instance");
   EXPECT_EQ(
-      error_of(R"({"trajectories": [{"id": 5, "motions": []}]})", instance),
-      "s: robot '5' that the instance does not have, expected one trajectory for each robot of the instance");
+      error_of(R"({"order": [3], "trajectories": []})", instance),
+      "s:1: order[0] is missing or of the wrong kind, expected the position of a robot, counted from 0");
+  EXPECT_EQ(error_of(R"({"trajectories": [{"id": 5, "motions": []}]})", instance),
+            "s:1: robot '5' that the instance does not have, expected one trajectory for each robot of the "
+            "instance");
   EXPECT_EQ(error_of(R"({"trajectories": [{"id": 0, "motions": []}, {"id": 0, "motions": []}]})", instance),
-            "s: a second trajectory of robot '0', expected one trajectory for each robot of the instance");
+            "s:1: a second trajectory of robot '0', expected one trajectory for each robot of the instance");
   EXPECT_EQ(
       error_of(R"({"trajectories": [{"id": 0, "motions": []}]})", instance),
-      "s: no trajectory of robot 'a \"b\", <c> & d?\xc3\xa9', expected one for each robot of the instance");
+      "s:1: no trajectory of robot 'a \"b\", <c> & d?\xc3\xa9', expected one for each robot of the instance");
   EXPECT_EQ(error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": "1"}]}]})", instance),
-            "s: trajectories[0].motions[0].t1 is missing or of the wrong kind, expected a finite number");
+            "s:1: trajectories[0].motions[0].t1 is missing or of the wrong kind, expected a finite number");
   EXPECT_EQ(
       error_of(
           R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 18446744073709551615}]}]})",
           instance),
-      "s: trajectories[0].motions[0].x0 is missing or of the wrong kind, expected an integer within 32 bits");
+      "s:1: trajectories[0].motions[0].x0 is missing or of the wrong kind, expected an integer within 32 "
+      "bits");
+  EXPECT_EQ(error_of("{\"trajectories\": [\n{\"id\": 0,\n\"motions\": [{\n\"t0\": 0,\n\"t1\": \"1\"}]}]}",
+                     instance),
+            "s:5: trajectories[0].motions[0].t1 is missing or of the wrong kind, expected a finite number");
+  EXPECT_EQ(error_of("{\n\"trajectories\":\n[{\"id\": 0, \"motions\": []},\n{\"id\": 5, \"motions\": []}]}",
+                     instance),
+            "s:4: robot '5' that the instance does not have, expected one trajectory for each robot of the "
+            "instance");
 }
 
 TEST(IoSolution, BadXmlAndCsvNameTheLine) {
