@@ -11,6 +11,7 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
+#include "planner/improve/static_times.hpp"
 #include "planner/instance/reachability.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/certify.hpp"
@@ -163,6 +164,13 @@ void check_lone_robot(const PlanCase& plan_case) {
           "shorter than the straight line");
   if (!lone.options.rules.is_plain()) return;  // turns and delays come on top
   require(Claim::kLoneRobotIsExact, way_cells <= *steps + rounding_cells, "longer than breadth-first search");
+  const LineOfSight sight(lone.instance.map, agent.radius_cells);
+  const double grid_cells =
+      shortest_grid_cells(lone.instance.map, sight, agent.start, agent.goal, lone.options.connectedness);
+  require(Claim::kLoneRobotIsExact, way_cells <= grid_cells + rounding_cells,
+          "longer than the shortest way over the neighbourhood");
+  require(Claim::kLoneRobotIsExact, lone.options.any_angle || way_cells >= grid_cells - rounding_cells,
+          "shorter than the shortest way over the neighbourhood");
 }
 
 /// The verdict on a plan, seen from elsewhere and with one robot less.

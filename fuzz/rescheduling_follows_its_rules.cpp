@@ -9,6 +9,7 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
+#include "planner/grid/neighbourhood.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 
 namespace {
@@ -18,6 +19,9 @@ using fuzz::Claim;
 
 /// Failures that are made up for one sequence of orders.
 constexpr int kMostFailures = 30;
+
+/// Rounding of a distance over a speed, in seconds.
+constexpr double kRoundingS = 1e-9;
 
 void require_rule(bool condition, const char* detail) {
   fuzz::require(Claim::kTraceFollowsRules, condition, detail);
@@ -65,9 +69,56 @@ void check_step(Rescheduling rescheduling, const std::set<PriorityOrder>& tried,
   }
 }
 
+/// Seconds that the robot needs at least, by which orders are sorted.
+double least_time_s(const PlanCase& plan_case, AgentIndex robot) {
+  const Agent& agent = plan_case.instance.agents[robot];
+  const PlannerOptions& options = plan_case.options;
+  const double cells = options.any_angle
+                           ? distance(agent.start, agent.goal)
+                           : neighbourhood_distance(agent.start, agent.goal, options.connectedness);
+  return cells / agent.speed_cells_per_s;
+}
+
+bool may_follow(const PlanCase& plan_case, AgentIndex before, AgentIndex behind) {
+  const double before_s = least_time_s(plan_case, before);
+  const double behind_s = least_time_s(plan_case, behind);
+  switch (plan_case.options.order) {
+    case InitialOrder::kFifo:
+      return before < behind;
+    case InitialOrder::kShortestFirst:
+      return before_s <= behind_s + kRoundingS;
+    case InitialOrder::kLongestFirst:
+      return before_s >= behind_s - kRoundingS;
+    default:
+      return true;
+  }
+}
+
+void check_first_order(const PlanCase& plan_case, const PriorityOrder& order) {
+  if (!plan_case.options.rules.is_plain()) return;  // turns and delays come on top
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    require_rule(may_follow(plan_case, order[i - 1], order[i]), "a first order that is not as its name says");
+  }
+}
+
+/// What the first try did is part of what all tries did together.
+void check_work(const PlanCase& plan_case, const PlanResult& result) {
+  PlanCase once = plan_case;
+  once.options.max_restarts = 0;
+  const PlanResult first = plan(once.instance, once.options);
+  require_rule(first.trace.front().order == result.trace.front().order, "another first order");
+  require_rule(first.statistics.expansions <= result.statistics.expansions &&
+                   first.statistics.generations <= result.statistics.generations,
+               "all tries did less than the first");
+}
+
 void check_trace(const PlanCase& plan_case) {
   const PlanResult result = plan(plan_case.instance, plan_case.options);
-  if (result.tries() > 1) fuzz::count(fuzz::Event::kRescheduled);
+  if (result.tries() > 1) {
+    fuzz::count(fuzz::Event::kRescheduled);
+    check_work(plan_case, result);
+  }
+  if (result.tries() > 0) check_first_order(plan_case, result.trace.front().order);
   std::set<PriorityOrder> tried;
   for (std::size_t i = 0; i < result.tries(); ++i) {
     const Try& pass = result.trace[i];
