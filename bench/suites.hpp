@@ -20,6 +20,7 @@ struct PlannerMode {
   MotionRules rules = {};
   Method method = Method::kPrioritized;
   Fallback fallback = Fallback::kNone;
+  double weight = 1;  ///< of the heuristic
 };
 
 /// What the robots of generated instances are like; see GeneratorOptions.

@@ -142,7 +142,15 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
     require_twins(twin.found == grid.found, "found by one twin only");
     require_twins(!grid.found || std::abs(twin.arrival_s - grid.arrival_s) <= kArrivalS, "another arrival");
   }
+  options = {};
+  options.any_angle = false;
+  options.connectedness = plan_case.options.connectedness;
+  options.weight = plan_case.options.weight;
+  const Arrival weighted = search(plan_case, agent, traffic, options);
+  require_twins(weighted.found == grid.found, "found with one weight of the heuristic only");
   if (!grid.found) return;
+  require_twins(weighted.arrival_s <= options.weight * grid.arrival_s + kArrivalS,
+                "later than the weight allows");
   options = {};
   options.connectedness = plan_case.options.connectedness;
   const Arrival any_angle = search(plan_case, agent, traffic, options);

@@ -109,8 +109,9 @@ void check_parts(const Instance& instance, const PlannerOptions& options) {
   apply(joined->options, again);
   fuzz::require(Claim::kReadsBackEqual,
                 again.any_angle == options.any_angle && again.connectedness == options.connectedness &&
-                    again.rescheduling == options.rescheduling && again.order == options.order &&
-                    again.ssi_s == options.ssi_s && again.time_limit_s == options.time_limit_s,
+                    again.weight == options.weight && again.rescheduling == options.rescheduling &&
+                    again.order == options.order && again.ssi_s == options.ssi_s &&
+                    again.time_limit_s == options.time_limit_s,
                 "a configuration reads as another");
 }
 

@@ -40,8 +40,8 @@ const Instance& instance_of_solutions() {
 bool same_options(const std::optional<PlannerOptions>& a, const std::optional<PlannerOptions>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->ssi_s == b->ssi_s && a->order == b->order && a->rescheduling == b->rescheduling &&
-         a->any_angle == b->any_angle && a->connectedness == b->connectedness && a->seed == b->seed &&
-         a->rules == b->rules;
+         a->any_angle == b->any_angle && a->connectedness == b->connectedness && a->weight == b->weight &&
+         a->seed == b->seed && a->rules == b->rules;
 }
 
 bool same(const SolutionDocument& a, const SolutionDocument& b) {

@@ -163,11 +163,13 @@ void check_lone_robot(const PlanCase& plan_case) {
   require(Claim::kLoneRobotIsExact, way_cells >= distance(agent.start, agent.goal) - rounding_cells,
           "shorter than the straight line");
   if (!lone.options.rules.is_plain()) return;  // turns and delays come on top
-  require(Claim::kLoneRobotIsExact, way_cells <= *steps + rounding_cells, "longer than breadth-first search");
+  const double weight = lone.options.weight;
+  require(Claim::kLoneRobotIsExact, way_cells <= weight * *steps + rounding_cells,
+          "longer than breadth-first search");
   const LineOfSight sight(lone.instance.map, agent.radius_cells);
   const double grid_cells =
       shortest_grid_cells(lone.instance.map, sight, agent.start, agent.goal, lone.options.connectedness);
-  require(Claim::kLoneRobotIsExact, way_cells <= grid_cells + rounding_cells,
+  require(Claim::kLoneRobotIsExact, way_cells <= weight * grid_cells + rounding_cells,
           "longer than the shortest way over the neighbourhood");
   require(Claim::kLoneRobotIsExact, lone.options.any_angle || way_cells >= grid_cells - rounding_cells,
           "shorter than the shortest way over the neighbourhood");

@@ -58,6 +58,7 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   }
   request.connectedness = arguments.connectedness;
   request.any_angle = arguments.any_angle;
+  request.weights = arguments.weights;
   request.change_rules = [motion = arguments.motion](MotionRules& rules) { motion.apply_to(rules); };
   if (arguments.method) request.method = parse_method(*arguments.method);
   if (arguments.fallback) request.fallback = parse_fallback(*arguments.fallback);
@@ -301,6 +302,10 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(2, 5));
   add_any_angle_flag(command, arguments.any_angle);
+  command.add_option("--weight", arguments.weights, kWeightWords + std::string("; of several, each: 1,1.05"))
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, kMaxWeight))
+      ->type_name("W,...");
   arguments.motion.add_to(command);
   add_method_flags(command, arguments.method, arguments.fallback);
   command.add_flag("--best", arguments.best, "as `sipplab plan --best`, within the time limit");

@@ -28,6 +28,7 @@ struct BenchArguments {
   std::vector<std::string> order;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
+  std::vector<double> weights;
   MotionFlags motion;
   std::optional<std::string> method;
   std::optional<std::string> fallback;

@@ -132,6 +132,7 @@ void PlannerFlags::add_to(CLI::App& command) {
       ->check(CLI::Range(kMinConnectedness, kMaxConnectedness))
       ->type_name("2..5");
   add_any_angle_flag(command, any_angle_);
+  command.add_option("--weight", weight_, kWeightWords)->check(CLI::Range(1.0, kMaxWeight))->type_name("W");
   command.add_option("--seed", seed_, "of random orders")->check(CLI::Range(std::uint64_t{0}, kMaxSeed));
   command.add_option("--time-limit", time_limit_, "wall-clock seconds, or inf")
       ->check(check_time_limit)
@@ -148,6 +149,7 @@ void PlannerFlags::apply_to(PlannerOptions& options) const {
   if (order_) options.order = parse_initial_order(*order_).value_or(options.order);
   if (connectedness_) options.connectedness = *connectedness_;
   if (any_angle_) options.any_angle = *any_angle_;
+  if (weight_) options.weight = *weight_;
   if (seed_) options.seed = *seed_;
   if (time_limit_) options.time_limit_s = parse_time_limit_s(*time_limit_);
   if (max_expansions_) options.max_expansions = *max_expansions_;

@@ -42,7 +42,7 @@ class MotionFlags {
   std::optional<double> inflate_time_s_;
 };
 
-/// --ssi (a list), --reschedule, --order, --connectedness, --any-angle, --seed, --time-limit,
+/// --ssi (a list), --reschedule, --order, --connectedness, --any-angle, --weight, --seed, --time-limit,
 /// --max-expansions, --max-restarts, --method, --fallback, and those of MotionFlags: each empty
 /// unless the user gave it.
 class PlannerFlags {
@@ -61,6 +61,7 @@ class PlannerFlags {
   std::optional<std::string> order_;
   std::optional<int> connectedness_;
   std::optional<bool> any_angle_;
+  std::optional<double> weight_;
   std::optional<std::uint64_t> seed_;
   std::optional<std::string> time_limit_;
   std::optional<std::uint64_t> max_expansions_;
@@ -74,6 +75,11 @@ class PlannerFlags {
 /// none where they do not name it or it can.
 std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options);
 
+/// What --weight is for.
+inline constexpr const char* kWeightWords =
+    "of the heuristic: with 1.05 far fewer nodes are expanded on large maps, and a robot arrives a little "
+    "later "
+    "(at most so many times as late as by steps alone)";
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
 /// Most threads of an improvement: each holds a copy of the plan.

@@ -43,6 +43,7 @@ json to_json(const PlannerOptions& options) {
           {"ssi", format_ssi(options.ssi_s)},
           {"any_angle", options.any_angle},
           {"connectedness", options.connectedness},
+          {"weight", options.weight},
           {"turns", options.rules.turns},
           {"wait_before_move", options.rules.wait_before_move_s},
           {"inflate_distance", options.rules.inflate_distance_cells},
@@ -66,7 +67,8 @@ Expected<PlannerOptions, std::string> options_from_json(const json& object) {
     options.ssi_s = *ssi_s;
     options.any_angle = object.at("any_angle").get<bool>();
     options.connectedness = object.at("connectedness").get<int>();
-    // A build that is older than the rules says nothing of them.
+    // A build that is older than the weight or the rules says nothing of them.
+    options.weight = object.value("weight", 1.0);
     options.rules.turns = object.value("turns", false);
     options.rules.wait_before_move_s = object.value("wait_before_move", 0.0);
     options.rules.inflate_distance_cells = object.value("inflate_distance", 0.0);

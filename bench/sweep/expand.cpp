@@ -34,6 +34,15 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
       block.planners.push_back(mode);
     }
   }
+  if (!request.weights.empty()) {
+    const std::vector<PlannerMode> modes = std::exchange(block.planners, {});
+    for (PlannerMode mode : modes) {
+      for (const double weight : request.weights) {
+        mode.weight = weight;
+        block.planners.push_back(mode);
+      }
+    }
+  }
   if (request.refinement) block.refinement = *request.refinement;
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
   for (PlannerMode& planner : block.planners) {
@@ -69,6 +78,7 @@ PlannerOptions without_idle_choices(PlannerOptions options) {
   options.rescheduling = Rescheduling::kNone;
   options.any_angle = false;
   options.connectedness = kMinConnectedness;
+  options.weight = defaults.weight;
   options.fallback = Fallback::kNone;
   return options;
 }
@@ -104,6 +114,7 @@ class Expansion {
             options.ssi_s = ssi_s;
             options.any_angle = planner.any_angle;
             options.connectedness = planner.connectedness;
+            options.weight = planner.weight;
             options.rules = planner.rules;
             options.method = planner.method;
             options.fallback = planner.fallback;
@@ -218,8 +229,8 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
     block.ssi_s = {options.ssi_s};
     block.reschedules = {options.rescheduling};
     block.orders = {options.order};
-    block.planners = {
-        {options.any_angle, options.connectedness, options.rules, options.method, options.fallback}};
+    block.planners = {{options.any_angle, options.connectedness, options.rules, options.method,
+                       options.fallback, options.weight}};
     const std::size_t set = expansion.add_set(
         single_instance_set("adversarial-" + std::string(adversarial.name), std::move(plan_case->instance)));
     expansion.add_cases(replaced(std::move(block), request), set, limits_of(request));

@@ -31,6 +31,7 @@ struct SweepRequest {
   std::vector<InitialOrder> orders;
   std::vector<int> connectedness;
   std::optional<bool> any_angle;
+  std::vector<double> weights;
   /// Overwrites what the user chose of the rules of motion; none: nothing.
   std::function<void(MotionRules&)> change_rules;
   std::optional<Method> method;

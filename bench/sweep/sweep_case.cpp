@@ -13,9 +13,15 @@ constexpr std::string_view kProgramPrefix = "cmd:";
 /// Ends the name of a planner that has the complete one as its fallback.
 constexpr std::string_view kFallbackSuffix = "+complete";
 constexpr std::string_view kComplete = "complete";
+constexpr std::string_view kWeight = "weight";
 
 /// The history keeps counts as signed integers; its largest means "no limit".
 std::uint64_t row_count(std::uint64_t limit) { return std::min(limit, db::kNoCountLimit); }
+
+/// Of the heuristic, after the method's name; nothing for the plain search.
+std::string weight_suffix(double weight) {
+  return weight == 1 ? "" : fmt::format("+{}:{}", kWeight, format_real(weight));
+}
 
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
@@ -24,7 +30,8 @@ std::string planner_of(const SweepCase& sweep_case) {
   if (options.method == Method::kComplete) {
     return std::string(kComplete) + refinement_suffix(sweep_case.refinement);
   }
-  return (options.any_angle ? "aa-sipp" : "sipp") + rules_suffix(options.rules) +
+  return (options.any_angle ? "aa-sipp" : "sipp") + weight_suffix(options.weight) +
+         rules_suffix(options.rules) +
          std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "") +
          refinement_suffix(sweep_case.refinement);
 }
@@ -67,6 +74,7 @@ std::string suffix_flags(std::string_view planner) {
     const std::string_view word = part.substr(0, part.find(':'));
     if (word == "turns") flags += " --turns";
     if (word == kComplete) flags += " --fallback complete";
+    if (word == kWeight) flags += fmt::format(" --weight {}", part.substr(word.size() + 1));
     if (is_refinement(part)) return flags + refinement_flags(planner.substr(at));  // it comes last
     for (const Margin& margin : kMargins) {
       if (word == margin.word) flags += fmt::format(" {} {}", margin.flag, part.substr(word.size() + 1));

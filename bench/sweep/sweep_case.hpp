@@ -29,7 +29,7 @@ struct SweepCase {
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.
 /// "any-angle-4+turns+wait:0.5": the same for robots with headings that stand before they
 /// move. "complete": the complete planner; "any-angle-4+complete": with it as fallback;
-/// "any-angle-8+improve:300i,flowtime": improved.
+/// "any-angle-8+improve:300i,flowtime": improved. "any-angle-4+weight:1.05": by a weighted heuristic.
 /// "cmd:NAME": another program, which `planner` of the history is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
 std::string planner_name(const SweepCase& sweep_case);

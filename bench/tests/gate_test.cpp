@@ -175,8 +175,10 @@ TEST(GateWorker, OptionsAndAnswersReadBack) {
   options.rescheduling = Rescheduling::kNone;
   options.max_restarts = 3;
   options.seed = 9;
+  options.weight = 1.5;
   const auto read = options_from_json(nlohmann::json::parse(to_json(options).dump()));
   ASSERT_TRUE(read);
+  EXPECT_EQ(read->weight, 1.5);
   EXPECT_EQ(to_json(*read), to_json(options));
 
   WorkerAnswer answer;

@@ -129,6 +129,9 @@ TEST(PlannerName, SaysWhatThePlannerIsMadeOf) {
   EXPECT_EQ(case_row(sweep_case).planner, "aa-sipp+complete");
   EXPECT_EQ(suffix_flags("aa-sipp+turns+wait:0.5+complete"),
             " --turns --wait-before-move 0.5 --fallback complete");
+  sweep_case.options.weight = 1.05;
+  EXPECT_EQ(planner_name(sweep_case), "any-angle-4+weight:1.05+complete");
+  EXPECT_EQ(suffix_flags(case_row(sweep_case).planner), " --weight 1.05 --fallback complete");
   sweep_case.options.method = Method::kComplete;
   EXPECT_EQ(planner_name(sweep_case), "complete");
   EXPECT_TRUE(is_complete_planner(case_row(sweep_case).planner));
@@ -206,6 +209,28 @@ TEST(Expand, ReplacedDimensionsTakeTheSuitesPlace) {
   ASSERT_EQ(sweep->sets.size(), 1u);
   EXPECT_EQ(sweep->sets[0].instances.size(), 2u);
   EXPECT_EQ(case_row(sweep->cases[0].parameters).ssi_s, 2.5);
+}
+
+TEST(Expand, EachWeightIsACaseOfItsOwnForEachNeighbourhood) {
+  SweepRequest request;
+  request.suite = find_suite("density");
+  request.map = "empty:8x8";
+  request.robots = {2};
+  request.ssi_s = {5};
+  request.reschedules = {Rescheduling::kNone};
+  request.connectedness = {2, 3};
+  request.weights = {1, 1.5};
+  request.count = 1;
+  const auto sweep = expand(request);
+  ASSERT_TRUE(sweep.has_value()) << sweep.error();
+  std::vector<std::string> planners;
+  for (const NamedCase& named : sweep->cases) planners.push_back(planner_name(named.parameters));
+  EXPECT_EQ(planners, (std::vector<std::string>{"any-angle-4", "any-angle-4+weight:1.5", "any-angle-8",
+                                                "any-angle-8+weight:1.5"}));
+  request.method = Method::kComplete;
+  const auto complete = expand(request);
+  ASSERT_TRUE(complete.has_value()) << complete.error();
+  EXPECT_EQ(complete->cases.size(), 1u);  // weights are nothing to it
 }
 
 TEST(Expand, RandomReschedulingOfThePaperIsRunWithTenSeeds) {

@@ -9,6 +9,7 @@ void apply(const FileOptions& file_options, PlannerOptions& options) {
   };
   overwrite(file_options.any_angle, options.any_angle);
   overwrite(file_options.connectedness, options.connectedness);
+  overwrite(file_options.weight, options.weight);
   overwrite(file_options.rescheduling, options.rescheduling);
   overwrite(file_options.order, options.order);
   overwrite(file_options.ssi_s, options.ssi_s);

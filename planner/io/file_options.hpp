@@ -11,6 +11,7 @@ namespace sipplab {
 struct FileOptions {
   std::optional<bool> any_angle;
   std::optional<int> connectedness;  ///< 2..5
+  std::optional<double> weight;      ///< 1..100
   std::optional<Rescheduling> rescheduling;
   std::optional<InitialOrder> order;
   std::optional<double> ssi_s;         ///< >= 0, or infinity

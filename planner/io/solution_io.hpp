@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/portfolio/best_plan.hpp"
 #include "planner/instance/instance.hpp"
 #include "planner/io/input_error.hpp"
+#include "planner/portfolio/best_plan.hpp"
 #include "planner/prioritized/options.hpp"
 #include "planner/solution/solution.hpp"
 
@@ -40,7 +40,7 @@ struct SolutionDocument {
   /// The promise of start-safe intervals holds for `order` in [0, ssi_kept_s].
   std::optional<double> ssi_kept_s;
   /// What it was planned with. Kept by JSON (extra keys at the end: "ssi", "reschedule",
-  /// "initial_order", "any_angle", "connectedness", "seed"; "turns", "wait_before_move",
+  /// "initial_order", "any_angle", "connectedness", "seed"; "weight", "turns", "wait_before_move",
   /// "inflate_distance", "inflate_time" where they are not as by default) and XML; limits and
   /// methods are not.
   std::optional<PlannerOptions> options;

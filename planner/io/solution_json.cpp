@@ -96,6 +96,10 @@ void append_options(std::string& out, const PlannerOptions& options) {
   out += std::string(",\n  \"any_angle\": ") + (options.any_angle ? "true" : "false");
   out += ",\n  \"connectedness\": " + std::to_string(options.connectedness);
   out += ",\n  \"seed\": " + std::to_string(options.seed);
+  if (options.weight != 1) {
+    out += ",\n  \"weight\": ";
+    append_number(out, options.weight);
+  }
   const MotionRules& rules = options.rules;
   if (rules.turns) out += ",\n  \"turns\": true";
   const auto append_margin = [&out](const char* key, double margin) {

@@ -191,6 +191,8 @@ void read_planner_options(JsonReader& reader, const json& document, SolutionDocu
     if (options.connectedness < 2 || options.connectedness > 5) reader.fail("connectedness", "2, 3, 4 or 5");
   }
   if (reader.find(document, "seed")) options.seed = reader.count(document, "seed");
+  options.weight = reader.number_or_null(document, "weight").value_or(options.weight);
+  if (options.weight < 1 || options.weight > kMaxWeight) reader.fail("weight", "a number from 1 to 100");
   options.rules.turns = reader.boolean(document, "turns", false);
   options.rules.wait_before_move_s = read_margin(reader, document, "wait_before_move");
   options.rules.inflate_distance_cells = read_margin(reader, document, "inflate_distance");

@@ -162,6 +162,7 @@ void append_options_xml(std::string& out, const PlannerOptions& options) {
   out += "\t<algorithm>\n";
   append_element(out, "allowanyangle", options.any_angle ? "true" : "false");
   append_element(out, "connectedness", std::to_string(options.connectedness));
+  if (options.weight != 1) append_element(out, "weight", format_real(options.weight));
   append_element(out, "prioritization", published_name(options.order));
   append_element(out, "rescheduling", published_name(options.rescheduling));
   append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));

@@ -14,6 +14,7 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 
 constexpr NumberRange kSsis{0, kLargest, "seconds from 0, or infinity"};
 constexpr NumberRange kTimeLimits{0, kLargest, "seconds above 0, or -1 for no limit", false};
+constexpr NumberRange kWeights{1, kMaxWeight, "a number from 1 to 100"};
 constexpr NumberRange kDelays{0, kMaxMotionMargin, "seconds from 0 to 100"};
 constexpr NumberRange kInflations{0, kMaxMotionMargin, "cells from 0 to 100"};
 constexpr NumberRange kLogLevels{0, 2, "0, 1 or 2"};
@@ -45,9 +46,9 @@ void read_algorithm(XmlReader& reader, xml_node node, FileOptions& options) {
   // The last line: settings of older dialects that leave nothing to choose here.
   reader.expect_only_children(
       node, {"allowanyangle", "connectedness", "rescheduling", "startsafeinterval", "prioritization",
-             "timelimit", "planforturns", "waitbeforemove", "inflatecollisionintervals",
+             "timelimit", "planforturns", "waitbeforemove", "inflatecollisionintervals", "weight",
              "inflatecollisiontime",  // of this project alone
-             "metrictype", "breakingties", "weight", "hweight", "constraints_type"});
+             "metrictype", "breakingties", "hweight", "constraints_type"});
 
   if (const xml_node child = reader.only_child(node, "allowanyangle")) {
     options.any_angle = reader.boolean_text(child);
@@ -57,6 +58,9 @@ void read_algorithm(XmlReader& reader, xml_node node, FileOptions& options) {
     if (*options.connectedness < 2 || *options.connectedness > 5) {
       reader.fail(child, "<connectedness> " + in_quotes(trimmed(XmlReader::text_of(child))), "2, 3, 4 or 5");
     }
+  }
+  if (const xml_node child = reader.only_child(node, "weight")) {
+    options.weight = reader.real_text(child, kWeights);
   }
   if (const xml_node child = reader.only_child(node, "rescheduling")) {
     options.rescheduling = read_word(reader, child, kReschedulings);

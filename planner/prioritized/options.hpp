@@ -57,12 +57,16 @@ std::optional<double> parse_ssi(std::string_view text);
 /// Shortest text that parse_ssi reads back as the same value; "inf" for infinity.
 std::string format_ssi(double ssi);
 
+/// Largest weight of the heuristic: nobody asks for a hundred times the way.
+inline constexpr double kMaxWeight = 100;
+
 struct PlannerOptions {
   InitialOrder order = InitialOrder::kShortestFirst;
   Rescheduling rescheduling = Rescheduling::kDeterministic;
   double ssi_s = kDefaultSsi;  ///< start-safe interval; 0 turns it off
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours, k = 2..5
+  double weight = 1;      ///< of the heuristic, 1 to kMaxWeight: see SippOptions
   std::uint64_t seed = 1;
   MotionRules rules;  ///< turns, delays, inflation; none by default
 

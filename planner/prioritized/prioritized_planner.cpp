@@ -141,10 +141,11 @@ void plan_all_at_once(const Instance& instance, const PlannerOptions& options, P
 std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
                                                          const PlannerOptions& options) {
   if (options.rules.is_plain()) {
-    return std::make_unique<SippSearch>(instance, SippOptions{options.any_angle, options.connectedness});
+    return std::make_unique<SippSearch>(
+        instance, SippOptions{options.any_angle, options.connectedness, options.weight});
   }
   return std::make_unique<TurningSearch>(
-      instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
+      instance, TurningOptions{options.any_angle, options.connectedness, options.rules, options.weight});
 }
 
 namespace {

@@ -52,7 +52,8 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
     const NodeId id = entry.node;
-    if (entry.f > limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
+    // No entry has a smaller f, and nobody arrives before f / weight.
+    if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     if (is_overtaken(entry)) continue;
     if (entry.is_promise()) {
       if (!relax(entry.from, entry.parent, id, statistics)) continue;
@@ -95,7 +96,7 @@ void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
   nodes_.clear();
   straight_ways_.clear();
   shot_blocker_ = ReservationTable::kNoDisk;
-  open_.begin(lower_bound_s(agent), kBucketCells / agent_->speed_cells_per_s);
+  open_.begin(options_.weight * lower_bound_s(agent), kBucketCells / agent_->speed_cells_per_s);
 }
 
 SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
@@ -103,7 +104,7 @@ SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
   if (nodes.search != search_) {
     nodes.search = search_;
     nodes.first = static_cast<NodeId>(nodes_.size());
-    const double to_goal_s = lower_bound_s(cell, agent_->goal);
+    const double to_goal_s = options_.weight * lower_bound_s(cell, agent_->goal);
     for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
       nodes_.push_back({interval, kForever, 0, to_goal_s, cell, kNoNode});
     }
@@ -280,13 +281,19 @@ Trajectory SippSearch::reconstruct(NodeId goal) const {
   for (NodeId id = goal; id != kNoNode; id = nodes_[id].parent) way.push_back(id);
   std::reverse(way.begin(), way.end());
   Trajectory trajectory{agent_->start, {}};
+  NodeId left = kNoNode;  // where the last motion began
   for (std::size_t i = 1; i < way.size(); ++i) {
     const SippNode& from = nodes_[way[i - 1]];
     const SippNode& to = nodes_[way[i]];
-    if (to.departure_s > from.arrival_s) {
-      trajectory.motions.push_back({from.arrival_s, to.departure_s, from.cell, from.cell});
+    const bool waits = to.departure_s > from.arrival_s;
+    if (options_.any_angle && left != kNoNode && !waits && is_on_the_way(left, way[i - 1], way[i])) {
+      trajectory.motions.back().end_s = to.arrival_s;
+      trajectory.motions.back().to = to.cell;
+      continue;
     }
+    if (waits) trajectory.motions.push_back({from.arrival_s, to.departure_s, from.cell, from.cell});
     trajectory.motions.push_back({to.departure_s, to.arrival_s, from.cell, to.cell});
+    left = way[i - 1];
   }
   return trajectory;
 }

@@ -18,10 +18,15 @@ struct SippOptions {
   bool any_angle = true;
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
+  /// Factor on the lower bound of what lies ahead, >= 1, as in weighted A* (Pohl 1970). With 1 the
+  /// least f is expanded first; with more, nodes nearer to the goal are: fewer expansions, and
+  /// an arrival that is at most so many times as late as the earliest one by steps alone.
+  double weight = 1;
   /// Try the straight way to the goal from each expanded node, departing at once, or so late
-  /// that the goal is free for good on arrival: no node of OPEN promises an earlier one, and
-  /// the search ends. Any-angle only, where the search is greedy and f may fall along a way: now and
-  /// then an earlier arrival would have been found by searching on.
+  /// that the goal is free for good on arrival: no node of OPEN promises an earlier one (with a
+  /// weight, one that is earlier by more than that factor), and the search ends. Any-angle only, where the
+  /// search is greedy and f may fall along a way: now and then an earlier arrival would have been found by
+  /// searching on.
   bool direct_shot = true;
   /// Queue successors with a lower bound on their arrival and compute the arrival when
   /// they come up; off: compute it for each successor at once, the plain twin. The two
@@ -63,7 +68,7 @@ class SippSearch final : public SingleAgentPlanner {
   CellNodes nodes_of(Cell cell);
   double lower_bound_s(Cell from, Cell to) const;
   double travel_s(Cell from, Cell to) const;
-  /// A lower bound on the arrival at the goal by way of the node.
+  /// A lower bound on the arrival at the goal by way of the node, what is ahead weighted.
   static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
   bool is_goal(const SippNode& node) const;
   /// Whether an arrival that leaves nothing to gain was found after this was queued.
@@ -91,6 +96,7 @@ class SippSearch final : public SingleAgentPlanner {
   /// the moment from which the goal is free; then the goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
   double earliest_departure(const Move& move, double from_s, double until_s);
+  /// The way to a node; any-angle steps that go on in one line are one motion.
   Trajectory reconstruct(NodeId goal) const;
 
   const Instance& instance_;

@@ -90,7 +90,8 @@ void TurningSearch::begin(const Agent& agent, ReservationTable& reservations) {
   ++search_;
   stays_.clear();
   states_.clear();
-  open_.begin(to_goal_s(agent.start, agent.start_heading_deg), kBucketCells / agent.speed_cells_per_s);
+  open_.begin(options_.weight * to_goal_s(agent.start, agent.start_heading_deg),
+              kBucketCells / agent.speed_cells_per_s);
 }
 
 TurningSearch::CellStays TurningSearch::stays_of(Cell cell) {
@@ -199,7 +200,8 @@ void TurningSearch::add(Stay& stay, const State& state) {
   states_.push_back(state);
   states_.back().next = stay.first;
   stay.first = id;
-  open_.push(id, state.arrival_s + to_goal_s(state.cell, state.heading_deg), state.arrival_s);
+  const double ahead_s = options_.weight * to_goal_s(state.cell, state.heading_deg);
+  open_.push(id, state.arrival_s + ahead_s, state.arrival_s);
 }
 
 Trajectory TurningSearch::reconstruct(NodeId goal) const {

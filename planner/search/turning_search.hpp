@@ -20,6 +20,7 @@ struct TurningOptions {
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
   MotionRules rules;
+  double weight = 1;  ///< of the heuristic, as in SippOptions
 };
 
 /// A state is a cell, one of its safe intervals, the heading of arrival and the time of

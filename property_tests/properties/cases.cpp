@@ -15,8 +15,8 @@ namespace {
 
 bool same(const PlannerOptions& a, const PlannerOptions& b) {
   return a.order == b.order && a.rescheduling == b.rescheduling && a.ssi_s == b.ssi_s &&
-         a.any_angle == b.any_angle && a.connectedness == b.connectedness && a.seed == b.seed &&
-         a.time_limit_s == b.time_limit_s && a.max_expansions == b.max_expansions &&
+         a.any_angle == b.any_angle && a.connectedness == b.connectedness && a.weight == b.weight &&
+         a.seed == b.seed && a.time_limit_s == b.time_limit_s && a.max_expansions == b.max_expansions &&
          a.max_restarts == b.max_restarts && a.rules == b.rules;
 }
 

@@ -247,6 +247,7 @@ Told any_told() {
     document.options->rescheduling = static_cast<Rescheduling>(*rc::gen::inRange(0, 3));
     document.options->any_angle = *rc::gen::arbitrary<bool>();
     document.options->connectedness = *rc::gen::inRange(2, 6);
+    document.options->weight = *rc::gen::oneOf(rc::gen::just(1.0), any_real_between(1, kMaxWeight));
     document.options->seed = *rc::gen::arbitrary<std::uint64_t>();
     MotionRules& rules = document.options->rules;
     rules.turns = *rc::gen::arbitrary<bool>();
@@ -266,6 +267,7 @@ void check_options_survive(const std::optional<PlannerOptions>& read,
   RC_ASSERT(read->rescheduling == written->rescheduling);
   RC_ASSERT(read->any_angle == written->any_angle);
   RC_ASSERT(read->connectedness == written->connectedness);
+  RC_ASSERT(read->weight == written->weight);
   RC_ASSERT(read->seed == written->seed);
   RC_ASSERT(read->rules == written->rules);
 }

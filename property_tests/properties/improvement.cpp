@@ -232,6 +232,7 @@ int main() {
       property("static times over a neighbourhood: no longer than any plan, no shorter than straight", [] {
         PlanCase plan_case = *any_case();
         plan_case.options.any_angle = false;
+        plan_case.options.weight = 1;
         const Instance& instance = plan_case.instance;
         RC_PRE(!instance.agents.empty());
         note_case(plan_case);

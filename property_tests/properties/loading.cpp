@@ -127,6 +127,7 @@ void options_are_read_as_stated() {
   std::string text = "<root><algorithm>";
   text += any_element<bool>("allowanyangle", expected.any_angle, {{"true", true}, {"false", false}});
   text += any_element<int>("connectedness", expected.connectedness, {{"2", 2}, {"3", 3}, {"5", 5}});
+  text += any_element<double>("weight", expected.weight, {{"1", 1.0}, {"1.25", 1.25}, {"100", 100.0}});
   text += any_element<Rescheduling>("rescheduling", expected.rescheduling,
                                     {{"no", Rescheduling::kNone},
                                      {"none", Rescheduling::kNone},
@@ -158,6 +159,7 @@ void options_are_read_as_stated() {
   apply(loaded->options, after);
   RC_ASSERT(after.any_angle == expected.any_angle.value_or(before.any_angle));
   RC_ASSERT(after.connectedness == expected.connectedness.value_or(before.connectedness));
+  RC_ASSERT(after.weight == expected.weight.value_or(before.weight));
   RC_ASSERT(after.rescheduling == expected.rescheduling.value_or(before.rescheduling));
   RC_ASSERT(after.order == expected.order.value_or(before.order));
   RC_ASSERT(after.ssi_s == expected.ssi_s.value_or(before.ssi_s));

@@ -115,13 +115,10 @@ struct Outcome {
   SearchStatistics statistics;
 };
 
-Outcome search(const Instance& instance, const SippOptions& options,
-               std::uint64_t max_expansions = UINT64_MAX) {
+Outcome search(const Instance& instance, const SippOptions& options, const SearchLimits& limits = {}) {
   ReservationTable reservations(instance.map, instance.agents[0].radius_cells);
   fill(reservations, instance);
   SippSearch sipp(instance, options);
-  SearchLimits limits;
-  limits.max_expansions = max_expansions;
   Outcome outcome;
   const auto planned = sipp.plan(0, reservations, limits, outcome.statistics);
   if (planned) {
@@ -191,6 +188,18 @@ void keeps_clear(const Instance& instance, const World& world, const Trajectory&
   }
 }
 
+/// Any-angle, two motions in a row and in one line are one motion, unless they are apart in time.
+void goes_each_line_at_once(const Trajectory& trajectory) {
+  for (std::size_t i = 1; i < trajectory.motions.size(); ++i) {
+    const TimedMotion& before = trajectory.motions[i - 1];
+    const TimedMotion& motion = trajectory.motions[i];
+    if (before.is_wait() || motion.is_wait()) continue;
+    const Displacement one(centre(before.from), centre(before.to));
+    const Displacement next(centre(motion.from), centre(motion.to));
+    RC_ASSERT(dot(one.direction, next.direction) < 1 - kRoundingS);
+  }
+}
+
 /// Arrival over the 2^k neighbourhood when nothing moves.
 std::optional<double> alone_arrival_s(const World& world, int connectedness) {
   LoneRobot robot = world.robot();
@@ -216,6 +225,27 @@ void is_straight_or_stepwise_alone(World world) {
   }
 }
 
+/// How much later than the earliest arrival by steps a weighted search is, as a factor; none where
+/// there is no way.
+std::optional<double> is_late_by_its_weight_at_most(const Instance& instance, const SippOptions& options,
+                                                    std::optional<double> earliest_s) {
+  const Outcome outcome = search(instance, options);
+  // Straight ways may lead where steps do not.
+  RC_ASSERT(outcome.trajectory.has_value() == earliest_s.has_value() || (options.any_angle && !earliest_s));
+  if (!earliest_s) return std::nullopt;
+  const double arrival_s = outcome.trajectory->arrival_s();
+  RC_LOG() << arrival_s << " s with weight " << options.weight << ", earliest " << *earliest_s << " s"
+           << std::endl;
+  RC_ASSERT(arrival_s <= options.weight * *earliest_s + kArrivalS);
+  if (!options.any_angle) {  // else f may fall along a way
+    RC_ASSERT(arrival_s >= *earliest_s - kArrivalS);
+    SearchLimits just_in_time;
+    just_in_time.latest_arrival_s = arrival_s + kRoundingS;
+    RC_ASSERT(search(instance, options, just_in_time).trajectory == outcome.trajectory);
+  }
+  return *earliest_s > 0 ? arrival_s / *earliest_s : 1;
+}
+
 /// How many expansions the search takes without a limit.
 std::uint64_t respects_limit(const World& world, const SippOptions& options) {
   const Instance instance = world.instance();
@@ -223,7 +253,9 @@ std::uint64_t respects_limit(const World& world, const SippOptions& options) {
   const std::uint64_t needed = whole.statistics.expansions;
   for (const std::uint64_t limit :
        {std::uint64_t{0}, std::uint64_t{1}, needed / 2, needed - (needed > 0 ? 1 : 0), needed, needed + 1}) {
-    const Outcome cut = search(instance, options, limit);
+    SearchLimits limits;
+    limits.max_expansions = limit;
+    const Outcome cut = search(instance, options, limits);
     RC_ASSERT(cut.statistics.expansions == std::min(limit, needed));
     RC_ASSERT(cut.trajectory == (limit < needed ? std::nullopt : whole.trajectory));
     if (limit < needed) RC_ASSERT(cut.failure == PlanFailure::kExpansionLimit);
@@ -262,6 +294,7 @@ int main() {
         if (!outcome.trajectory) continue;
         ++found;
         keeps_clear(instance, world, *outcome.trajectory);
+        if (options.any_angle) goes_each_line_at_once(*outcome.trajectory);
       }
     }
     RC_CLASSIFY(found >= kWorlds, "many trajectories");
@@ -296,6 +329,20 @@ int main() {
     if (!indexed.trajectory) return;
     RC_ASSERT(std::abs(indexed.trajectory->arrival_s() - plain.trajectory->arrival_s()) <= kArrivalS);
     RC_CLASSIFY(indexed.trajectory == plain.trajectory, "by the same way");
+  });
+
+  passed &= property("weighted, a way is found where there is one, and no later than the weight allows", [] {
+    const World world = *any_world(4);
+    const double weight = *any_of({1.0625, 1.25, 2.0, 5.0});
+    const Instance instance = world.instance();
+    const auto earliest_s = earliest_arrival_s(instance.map, disks_of(instance), world.robot());
+    double lateness = 1;
+    for (SippOptions options : {plain_sipp(world), any_angle_sipp(world)}) {
+      options.weight = weight;
+      const auto late = is_late_by_its_weight_at_most(instance, options, earliest_s);
+      lateness = std::max(lateness, late.value_or(1));
+    }
+    RC_CLASSIFY(lateness > 1 + kArrivalS, "later than it might be");
   });
 
   passed &= property("a search and a table that were used before change nothing", [] {

@@ -49,8 +49,10 @@ int main() {
     // Rounding of sums of square roots.
     constexpr double kRoundingS = 1e-9;
     RC_ASSERT(arrival_s >= distance(agent.start, agent.goal) - kRoundingS);
-    RC_ASSERT(arrival_s <= *steps_between(plan_case.instance.map, agent.start, agent.goal) + kRoundingS);
-    if (!plan_case.options.any_angle && plan_case.options.connectedness == 2) {
+    const double steps_s = *steps_between(plan_case.instance.map, agent.start, agent.goal);
+    RC_ASSERT(arrival_s <= plan_case.options.weight * steps_s + kRoundingS);
+    if (plan_case.options.weight == 1 && !plan_case.options.any_angle &&
+        plan_case.options.connectedness == 2) {
       RC_ASSERT(arrival_s == *steps_between(plan_case.instance.map, agent.start, agent.goal));
     }
   });

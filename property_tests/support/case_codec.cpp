@@ -105,6 +105,9 @@ bool read_option(std::string_view name, Words& words, PlannerOptions& options) {
   if (name == "connectedness") {
     return words.read(options.connectedness) && options.connectedness >= 2 && options.connectedness <= 5;
   }
+  if (name == "weight") {
+    return words.read(options.weight) && options.weight >= 1 && options.weight <= kMaxWeight;
+  }
   if (name == "seed") return words.read(options.seed);
   if (name == "max-expansions") return words.read(options.max_expansions);
   if (name == "max-restarts") return words.read(options.max_restarts);
@@ -196,6 +199,7 @@ std::string encode_case(const PlanCase& plan_case) {
   out += "reschedule " + std::string(name(options.rescheduling)) + '\n';
   out += std::string("any-angle ") + (options.any_angle ? "yes" : "no") + '\n';
   out += "connectedness " + std::to_string(options.connectedness) + '\n';
+  if (options.weight != 1) out += "weight " + text(options.weight) + '\n';
   const MotionRules& rules = options.rules;
   if (rules.turns) out += "turns yes\n";
   const auto add_margin = [&out](const char* name, double margin) {

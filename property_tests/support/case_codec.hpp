@@ -11,6 +11,7 @@
 //     reschedule none
 //     any-angle no
 //     connectedness 3
+//     weight 1.5
 //     turns yes
 //     wait-before-move 0.5
 //     inflate-distance 0.25

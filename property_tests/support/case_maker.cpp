@@ -221,6 +221,7 @@ PlanCase make_case(CaseFamily family, int size, std::uint64_t seed) {
   plan_case.instance = draw_instance();
   if (one_in(random, 4)) add_obstacle(random, plan_case.instance);
   if (one_in(random, 12)) add_obstacle(random, plan_case.instance);
+  if (one_in(random, 6)) plan_case.options.weight = 1 + draw_eighths(random, 2);
   return plan_case;
 }
 

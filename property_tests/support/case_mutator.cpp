@@ -175,7 +175,7 @@ void change_options(Random& random, PlannerOptions& options) {
                                       InitialOrder::kLongestFirst, InitialOrder::kRandom};
   constexpr Rescheduling kReschedulings[] = {Rescheduling::kNone, Rescheduling::kDeterministic,
                                              Rescheduling::kRandom};
-  switch (random.below(8)) {
+  switch (random.below(9)) {
     case 0:
       options.ssi_s = one_in(random, 4) ? kInfiniteSsi : one_in(random, 4) ? 0 : draw_eighths(random, 8);
       break;
@@ -199,6 +199,9 @@ void change_options(Random& random, PlannerOptions& options) {
       if (options.rescheduling == Rescheduling::kEjection) break;  // knows nothing of inflation
       options.rules.inflate_distance_cells = one_in(random, 2) ? 0 : draw_eighths(random, 1);
       options.rules.inflate_time_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      break;
+    case 7:
+      options.weight = one_in(random, 2) ? 1 : 1 + draw_eighths(random, 2);
       break;
     default:
       options.seed = random.below(1000);

@@ -137,6 +137,7 @@ class Shrinker {
       offer([](PlanCase& it) { it.options.order = InitialOrder::kFifo; });
     if (options.any_angle) offer([](PlanCase& it) { it.options.any_angle = false; });
     if (options.connectedness > 2) offer([](PlanCase& it) { --it.options.connectedness; });
+    if (options.weight > 1) offer([](PlanCase& it) { it.options.weight = 1; });
     if (options.seed != 0) offer([](PlanCase& it) { it.options.seed = 0; });
     if (options.ssi_s > 0) offer([](PlanCase& it) { it.options.ssi_s = 0; });
     if (std::isinf(options.ssi_s)) offer([](PlanCase& it) { it.options.ssi_s = 8; });

@@ -91,6 +91,7 @@ void classify_case(const PlanCase& plan_case) {
   RC_CLASSIFY(!instance.obstacles.empty(), "moving obstacles");
   RC_CLASSIFY(plan_case.options.ssi_s != std::floor(plan_case.options.ssi_s), "fractional ssi");
   RC_CLASSIFY(std::isinf(plan_case.options.ssi_s), "infinite ssi");
+  RC_CLASSIFY(plan_case.options.weight > 1, "weighted heuristic");
   const MotionRules& rules = plan_case.options.rules;
   if (rules.is_plain()) return;
   RC_CLASSIFY(rules.turns, "turns");

@@ -18,7 +18,7 @@ TEST(CaseCodec, ReadsEveryKindOfLine) {
       "robot 0 0 to 3 1\n"
       "robot 3 0 to 0 1 speed 2 radius 0.25\r\n"
       "obstacle 2 0 radius 0.375 until 1.5 at 2 0 until 3 at -1 0\n"
-      "ssi 2.5\norder random\nreschedule deterministic\nany-angle no\nconnectedness 5\nseed 7\n"
+      "ssi 2.5\norder random\nreschedule deterministic\nany-angle no\nconnectedness 5\nweight 1.5\nseed 7\n"
       "max-expansions 1000\nmax-restarts 20");
   ASSERT_TRUE(plan_case);
   const auto& [instance, options] = *plan_case;
@@ -41,6 +41,7 @@ TEST(CaseCodec, ReadsEveryKindOfLine) {
   EXPECT_EQ(options.rescheduling, Rescheduling::kDeterministic);
   EXPECT_FALSE(options.any_angle);
   EXPECT_EQ(options.connectedness, 5);
+  EXPECT_EQ(options.weight, 1.5);
   EXPECT_EQ(options.seed, 7u);
   EXPECT_EQ(options.max_expansions, 1000u);
   EXPECT_EQ(options.max_restarts, 20u);
@@ -50,7 +51,7 @@ TEST(CaseCodec, ReadsEveryKindOfLine) {
 TEST(CaseCodec, WritesWhatAPersonWouldWrite) {
   const std::string text =
       "...\n.@.\nrobot 0 0 to 2 1 radius 0.25\nobstacle 2 0 radius 0.5 until 1.5 at 2 1\n"
-      "ssi inf\norder fifo\nreschedule none\nany-angle yes\nconnectedness 3\nseed 7\n";
+      "ssi inf\norder fifo\nreschedule none\nany-angle yes\nconnectedness 3\nweight 1.125\nseed 7\n";
   const auto plan_case = decode_case(text);
   ASSERT_TRUE(plan_case);
   EXPECT_EQ(encode_case(*plan_case), text);
@@ -77,6 +78,8 @@ TEST(CaseCodec, RefusesWhatItDoesNotUnderstand) {
            "...\nreschedule maybe\n",
            "...\nany-angle 1\n",
            "...\nconnectedness 6\n",
+           "...\nweight 0.5\n",
+           "...\nweight nan\n",
            "...\nseed -1\n",
            "...\nseed 1\n...\n",
        }) {

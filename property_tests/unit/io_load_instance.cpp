@@ -118,6 +118,7 @@ TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {
   ASSERT_TRUE(whole) << whole.error().message();
   PlannerOptions options;
   apply(whole->options, options);
+  options.weight = 1.25;
 
   InstanceFiles parts;
   parts.task = write("task.xml", write_task_xml(whole->instance));
@@ -132,6 +133,7 @@ TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {
   apply(joined->options, again);
   EXPECT_EQ(again.any_angle, options.any_angle);
   EXPECT_EQ(again.connectedness, options.connectedness);
+  EXPECT_EQ(again.weight, 1.25);
   EXPECT_EQ(again.rescheduling, options.rescheduling);
   EXPECT_EQ(again.order, options.order);
   EXPECT_EQ(again.ssi_s, options.ssi_s);

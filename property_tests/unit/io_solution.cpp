@@ -79,6 +79,7 @@ void expect_equal(const SolutionDocument& read, const SolutionDocument& written)
   EXPECT_EQ(read.options->rescheduling, written.options->rescheduling);
   EXPECT_EQ(read.options->any_angle, written.options->any_angle);
   EXPECT_EQ(read.options->connectedness, written.options->connectedness);
+  EXPECT_EQ(read.options->weight, written.options->weight);
   EXPECT_EQ(read.options->seed, written.options->seed);
   EXPECT_EQ(read.options->rules, written.options->rules);
 }
@@ -106,6 +107,7 @@ TEST(IoSolution, JsonAndXmlSurviveTheRoundTripBitByBit) {
 /// the middle of a wait, and to the goal heading of a robot that never leaves.
 SolutionDocument turning_document(const Instance& instance) {
   SolutionDocument document = awkward_document(instance);
+  document.options->weight = 1 + 1.0 / 3;
   document.options->rules.turns = true;
   document.options->rules.wait_before_move_s = 0.1;
   document.options->rules.inflate_distance_cells = 1.0 / 3;

@@ -185,6 +185,7 @@ TEST(IoXmlInstance, BadOptionsNameTheirLine) {
   EXPECT_EQ(option_error("allowanyangle", "yes"), "f:3: <allowanyangle> 'yes', expected true or false");
   EXPECT_EQ(option_error("connectedness", "6"), "f:3: <connectedness> '6', expected 2, 3, 4 or 5");
   EXPECT_EQ(option_error("connectedness", "2.5"), "f:3: <connectedness> '2.5', expected an integer");
+  EXPECT_EQ(option_error("weight", "0.5"), "f:3: <weight> '0.5', expected a number from 1 to 100");
   EXPECT_EQ(option_error("startsafeinterval", "-1"),
             "f:3: <startsafeinterval> '-1', expected seconds from 0, or infinity");
   EXPECT_EQ(option_error("timelimit", "0"),
