@@ -304,7 +304,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   add_any_angle_flag(command, arguments.any_angle);
   command.add_option("--weight", arguments.weights, kWeightWords + std::string("; of several, each: 1,1.05"))
       ->delimiter(',')
-      ->check(CLI::Range(1.0, kMaxWeight))
+      ->check(real_between(1, kMaxWeight))
       ->type_name("W,...");
   arguments.motion.add_to(command);
   add_method_flags(command, arguments.method, arguments.fallback);

@@ -12,6 +12,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
+#include "bench/cli/planner_flags.hpp"
 #include "bench/fuzz/campaign.hpp"
 #include "bench/fuzz/coverage.hpp"
 #include "bench/fuzz/hardest.hpp"
@@ -157,7 +158,7 @@ CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
       ->check(CLI::IsMember({"smoke", "for", "nightly"}))
       ->capture_default_str();
   run->add_option("--target", campaign.targets, "only these targets");
-  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets")->check(CLI::PositiveNumber);
+  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets")->check(check_positive_real);
   run->add_option("--executions", campaign.executions, "budget of each target")->check(CLI::PositiveNumber);
   run->add_option("--seed", campaign.seed, "of the engine")
       ->check(CLI::Range(1U, 4294967295U))

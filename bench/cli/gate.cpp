@@ -205,13 +205,13 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
                    "other plans are meant: judge only time, validity and how many are solved");
   command
       .add_option("--tolerance", request.tolerance, "slowdown to rule out before two builds are equivalent")
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(real_between(0.001, 10))
       ->capture_default_str();
   command.add_option("--pairs", request.pairs, "pairs of processes")
       ->check(CLI::Range(std::size_t{5}, std::size_t{1000}))
       ->capture_default_str();
   command.add_option("--pair-seconds", request.budget.seconds, "time that each pair plans for")
-      ->check(CLI::Range(0.01, 600.0))
+      ->check(real_between(0.01, 600))
       ->capture_default_str();
   command.add_option("--seed", request.seed, "of the order of plannings")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))

@@ -71,6 +71,15 @@ std::string check_positive_real(const std::string& text) {
   return parse_real(text).value_or(0) > 0 ? "" : expected(text, "a number > 0");
 }
 
+CLI::Validator real_between(double low, double high) {
+  const std::string range = "in [" + format_real(low) + " - " + format_real(high) + "]";
+  const auto check = [low, high, range](const std::string& text) {
+    const std::optional<double> number = parse_real(text);
+    return number && *number >= low && *number <= high ? "" : expected(text, "a number " + range);
+  };
+  return {check, "FLOAT " + range};
+}
+
 void InstanceFlags::add_to(CLI::App& command) {
   command.add_option("--instance", files_.instance,
                      "instance in one file (XML, or a .scen that names its map)");
@@ -98,7 +107,7 @@ void MotionFlags::add_to(CLI::App& command) {
   add_yes_or_no(command, "--turns,!--no-turns", turns_, "robots have headings, and turning takes time");
   const auto add_margin = [&command](const char* name, std::optional<double>& margin, const char* unit,
                                      const char* words) {
-    command.add_option(name, margin, words)->check(CLI::Range(0.0, kMaxMotionMargin))->type_name(unit);
+    command.add_option(name, margin, words)->check(real_between(0, kMaxMotionMargin))->type_name(unit);
   };
   add_margin("--wait-before-move", wait_before_move_s_, "S", "seconds that a robot stands before each move");
   add_margin("--inflate-distance", inflate_distance_cells_, "CELLS",
@@ -132,7 +141,7 @@ void PlannerFlags::add_to(CLI::App& command) {
       ->check(CLI::Range(kMinConnectedness, kMaxConnectedness))
       ->type_name("2..5");
   add_any_angle_flag(command, any_angle_);
-  command.add_option("--weight", weight_, kWeightWords)->check(CLI::Range(1.0, kMaxWeight))->type_name("W");
+  command.add_option("--weight", weight_, kWeightWords)->check(real_between(1, kMaxWeight))->type_name("W");
   command.add_option("--seed", seed_, "of random orders")->check(CLI::Range(std::uint64_t{0}, kMaxSeed));
   command.add_option("--time-limit", time_limit_, "wall-clock seconds, or inf")
       ->check(check_time_limit)

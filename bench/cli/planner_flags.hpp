@@ -77,9 +77,9 @@ std::optional<std::string> beyond_complete(const Instance& instance, const Plann
 
 /// What --weight is for.
 inline constexpr const char* kWeightWords =
-    "of the heuristic: with 1.05 far fewer nodes are expanded on large maps, and a robot arrives a little "
-    "later "
-    "(at most so many times as late as by steps alone)";
+    "of the heuristic: with 1.05 far fewer nodes are expanded on large maps, and robots arrive a little "
+    "later (at most so many times as late as by steps alone)";
+
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
 /// Most threads of an improvement: each holds a copy of the plan.
@@ -92,6 +92,8 @@ std::string check_order(const std::string& text);
 /// A number of seconds > 0, or "inf".
 std::string check_time_limit(const std::string& text);
 std::string check_positive_real(const std::string& text);
+/// A number in [low, high]. CLI::Range lets "nan" through, which is below and above nothing.
+CLI::Validator real_between(double low, double high);
 std::string check_objective(const std::string& text);
 /// "30", "30s": seconds > 0; "500i": iterations > 0.
 std::string check_improve(const std::string& text);

@@ -18,6 +18,9 @@
 namespace sipplab::cli {
 namespace {
 
+/// Largest --min-effect: a metric that is a thousand times as much again.
+constexpr double kGreatestEffect = 1000;
+
 struct TrendArguments {
   std::string metric;
   std::vector<std::string> cases;
@@ -99,7 +102,7 @@ Command add_trend_command(CLI::App& program) {
   command
       ->add_option("--min-effect", arguments->rules.min_effect,
                    "smallest change marked, 0.05 is 5 % (of a rate: 5 points); default by metric")
-      ->check(CLI::NonNegativeNumber);
+      ->check(real_between(0, kGreatestEffect));
   command->add_option("--seed", arguments->rules.search.seed, "of the permutation tests")
       ->capture_default_str();
   command->add_option("--svg", arguments->svg, "write a picture")->type_name("FILE");

@@ -45,6 +45,8 @@ expect 1 validate --instance warehouse/1.xml --solution plan.json
 says 'invalid'
 expect 0 plan --instance movingai/0.scen --connectedness 5 --no-any-angle --json
 says '"status": "solved"'
+expect 0 plan --instance warehouse/0.xml --weight 1.25 --json
+says '"weight": 1.25'
 expect 0 plan --map movingai/0.map --task movingai/0.scen --format csv
 says '^agent,id,t0,t1,x0,y0,x1,y1'
 
@@ -123,6 +125,10 @@ expect 0 bench --instances bodies --turns --wait-before-move 0.25 --inflate-time
 equal "$(sqlite3 rules.db 'SELECT DISTINCT planner FROM v_run_cells')" 'aa-sipp+turns+wait:0.25+time:0.5' 'the rules in the history'
 refused 'inflated distances or times, expected none' bench --instances bodies --inflate-time 1 --improve 5i --db rules.db
 
+expect 0 bench --instances bodies --weight 1,1.05 --max-restarts 3 --db weights.db
+equal "$(sqlite3 weights.db 'SELECT group_concat(planner) FROM (SELECT planner FROM v_run_cells ORDER BY planner)')" \
+  'aa-sipp,aa-sipp+weight:1.05' 'the weights in the history'
+
 # --- the history ------------------------------------------------------------------
 
 expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --connectedness 2 --count 2 --db history.db
@@ -165,6 +171,13 @@ refused 'ssi' plan --instance warehouse/0.xml --ssi -1
 refused 'ssi' plan --instance warehouse/0.xml --ssi nan
 refused 'time-limit' plan --instance warehouse/0.xml --time-limit 0
 refused 'connectedness' plan --instance warehouse/0.xml --connectedness 6
+refused 'weight' plan --instance warehouse/0.xml --weight 0.9
+refused 'wait-before-move' plan --instance warehouse/0.xml --wait-before-move nan
+refused 'inflate-time' plan --instance warehouse/0.xml --inflate-time nan
+refused 'tolerance' gate --tolerance nan
+refused 'min-effect' trend success --min-effect nan --db history.db
+refused 'seconds' fuzz run --seconds nan
+refused 'weight' bench --suite smoke --weight 1,nan --db history.db
 refused 'no instance' plan
 refused 'missing.xml' plan --instance missing.xml
 refused 'robots' generate --map empty:2x2 --agents 5 -o too_many
