@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -10,8 +11,15 @@ namespace sipplab::bench {
 namespace fs = std::filesystem;
 
 Expected<TemporaryFolder, std::string> TemporaryFolder::make() {
-  std::error_code ignored;
-  const fs::path parent = fs::temp_directory_path(ignored);
+  // Absolute: programs that are given its files run elsewhere. An empty TMPDIR is none.
+  std::error_code error;
+  fs::path parent = fs::temp_directory_path(error);
+  if (!error) parent = fs::absolute(parent, error);
+  if (error || parent.empty()) {
+    const char* const named = std::getenv("TMPDIR");
+    return Unexpected{std::string(named == nullptr ? "/tmp" : named) +
+                      ": is no folder, expected one for temporary files (TMPDIR)"};
+  }
   std::string pattern = (parent / "sipplab-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {
     return Unexpected{parent.string() +

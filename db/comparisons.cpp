@@ -41,7 +41,8 @@ Error not_found(const Database& database, std::string_view text) {
 Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where, const std::string& value) {
   auto select = Statement::prepare(
       database.connection(),
-      fmt::format("SELECT run.id FROM run LEFT JOIN commit_ ON commit_.id = run.commit_id "
+      fmt::format("SELECT run.id FROM run JOIN build ON build.id = run.build_id "
+                  "LEFT JOIN commit_ ON commit_.id = run.commit_id "
                   "WHERE run.excluded_reason IS NULL AND {} ORDER BY run.started_utc, run.id",
                   where),
       kReading);
@@ -104,11 +105,18 @@ Result<Sides> as_run(Database& database, const std::string& text) {
   return Sides{std::move(side)};
 }
 
+/// The runs of builds of just this commit; where there is none, those with uncommitted changes.
 Result<Sides> of_commit(Database& database, const std::string& hash, const std::string& title) {
-  auto ids = run_ids(database, "commit_.hash = ?", hash);
-  if (!ids) return Unexpected{ids.error()};
-  const std::string name = title + " " + counted_runs(ids->size());
-  return Sides{{name, hash, std::move(*ids)}};
+  auto clean = run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash);
+  if (!clean) return Unexpected{clean.error()};
+  auto dirty = run_ids(database, "build.dirty = 1 AND commit_.hash = ?", hash);
+  if (!dirty) return Unexpected{dirty.error()};
+  if (clean->empty()) {
+    return Sides{{title + "+ (uncommitted changes) " + counted_runs(dirty->size()), hash, std::move(*dirty)}};
+  }
+  std::string name = title + " " + counted_runs(clean->size());
+  if (!dirty->empty()) name += fmt::format(" without {} of uncommitted changes", dirty->size());
+  return Sides{{std::move(name), hash, std::move(*clean)}};
 }
 
 Result<Sides> as_commit(Database& database, const std::string& text) {

@@ -16,7 +16,8 @@ namespace sipplab::db {
 /// What a user named. Of several runs, the newest result of each case counts, so that shards
 /// and partial sweeps of one commit add up.
 struct ComparisonSide {
-  /// "run 1a2b3c4d of commit 88a77295", "commit 88a77295 (2 runs)", "branch main at 88a77295 (1 run)".
+  /// "run 1a2b3c4d of commit 88a77295", "commit 88a77295 (2 runs)", "branch main at 88a77295 (1 run)",
+  /// "commit 88a77295+ (uncommitted changes) (1 run)".
   std::string title;
   std::optional<std::string> commit_hash;
   std::vector<std::int64_t> run_ids;  ///< oldest first
@@ -24,7 +25,8 @@ struct ComparisonSide {
 
 /// `text`: "latest", a UUID or its beginning, the beginning of a commit's hash, or a branch
 /// as recorded (its newest commit); "run:", "commit:" and "branch:" before it say which is
-/// meant. Excluded runs do not count. An error where it names nothing, or several things.
+/// meant. Excluded runs do not count, nor do runs of builds with uncommitted changes where a commit or
+/// branch has others. An error where it names nothing, or several things.
 Result<ComparisonSide> resolve_side(Database& database, std::string_view text);
 
 /// One instance as both sides planned it.

@@ -16,6 +16,13 @@
 
 namespace sipplab::db {
 
+/// SQL over a row with the columns of case_: its planner as tables show it, "any-angle-8+weight:1.05",
+/// "grid-4", "complete", "cmd:NAME".
+inline constexpr std::string_view kPlannerNameSql =
+    "CASE WHEN planner GLOB 'cmd:*' OR planner = 'complete' OR planner GLOB 'complete+*' THEN planner "
+    "ELSE iif(any_angle, 'any-angle-', 'grid-') || (1 << connectedness) || "
+    "iif(instr(planner, '+') > 0, substr(planner, instr(planner, '+')), '') END";
+
 /// One row of v_runs.
 struct RunSummary {
   std::string uuid;

@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "db/queries.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/statistics/statistics.hpp"
 
@@ -87,7 +88,8 @@ std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
       values.push_back(samples[end++].value);
     }
     points.push_back({first.commit, first.dirty, first.subject, first.committed_utc, first.started_utc,
-                      static_cast<std::int64_t>(values.size()), statistics::median(values).value_or(0)});
+                      first.ancestor_count, static_cast<std::int64_t>(values.size()),
+                      statistics::median(values).value_or(0)});
     begin = end;
   }
   return points;
@@ -99,21 +101,27 @@ struct CaseName {
 };
 
 Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& filter) {
-  auto select = Statement::prepare(
-      database.connection(),
-      "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s-%d', environment, robots, "
-      "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, "
-      "iif(any_angle, 'any-angle', 'grid'), 1 << connectedness) || "
-      "iif(planner GLOB '*+complete', '+complete', iif(planner = 'complete', ', complete', '')) FROM case_ "
-      "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS NULL OR robots = ?3) "
-      "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
-      "AND (?6 IS NULL OR initial_order = ?6) AND (?7 IS NULL OR any_angle = ?7) "
-      "AND (?8 IS NULL OR connectedness = ?8) AND (?9 IS NULL OR map_spec = ?9) "
-      "ORDER BY environment, planner, any_angle, connectedness, initial_order, reschedule, ssi_s, robots, id",
-      kReading);
+  auto select =
+      Statement::prepare(database.connection(),
+                         "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s%s', iif(map_spec = 'files', "
+                         "environment, map_spec), "
+                         "robots, "
+                         "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, " +
+                             std::string(kPlannerNameSql) +
+                             ", iif(reschedule = 'random' OR initial_order = 'random', printf(', seed %d', "
+                             "seed), '')) FROM case_ "
+                             "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS "
+                             "NULL OR robots = ?3) "
+                             "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
+                             "AND (?6 IS NULL OR initial_order = ?6) AND (?7 IS NULL OR any_angle = ?7) "
+                             "AND (?8 IS NULL OR connectedness = ?8) AND (?9 IS NULL OR map_spec = ?9) "
+                             "AND (?10 IS NULL OR planner = ?10) "
+                             "ORDER BY environment, planner, any_angle, connectedness, initial_order, "
+                             "reschedule, ssi_s, robots, id",
+                         kReading);
   if (!select) return Unexpected{select.error()};
   select->bind(filter.id, filter.environment, filter.robots, filter.ssi_s, filter.reschedule, filter.order,
-               filter.any_angle, filter.connectedness, filter.map);
+               filter.any_angle, filter.connectedness, filter.map, filter.planner);
   std::vector<CaseName> cases;
   for (;;) {
     const auto row = select->step();
@@ -123,17 +131,41 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
   }
 }
 
-using SamplesByContext = std::map<std::string, std::vector<Sample>>;
+/// What samples of one series have in common.
+struct SeriesKey {
+  std::string context;
+  std::string instances;  ///< their keys; empty where there are none
 
-/// Rows of `select`: the context, then a sample.
-Result<SamplesByContext> read_samples(Statement& select) {
-  SamplesByContext samples;
+  friend bool operator<(const SeriesKey& a, const SeriesKey& b) {
+    return std::tie(a.context, a.instances) < std::tie(b.context, b.instances);
+  }
+};
+using SamplesByKey = std::map<SeriesKey, std::vector<Sample>>;
+
+/// Rows of `select`: the context, the keys of the instances, then a sample.
+Result<SamplesByKey> read_samples(Statement& select) {
+  SamplesByKey samples;
   for (;;) {
     const auto row = select.step();
     if (!row) return Unexpected{row.error()};
     if (!row.value()) return samples;
-    samples[select.text(0)].push_back(read_sample(select, 1));
+    samples[{select.text(0), select.text(1)}].push_back(read_sample(select, 2));
   }
+}
+
+/// Names for the sets of instances on which a case was planned: none where there is but one, else
+/// "10 instances", and "10 instances, set 2" where several have as many.
+std::map<std::string, std::string> set_names(const SamplesByKey& samples) {
+  std::map<std::string, std::string> names;
+  for (const auto& [key, values] : samples) names[key.instances];
+  if (names.size() < 2) return names;
+  std::map<std::string, int> sets_of_size;
+  for (auto& [keys, name] : names) {
+    const auto count = std::count(keys.begin(), keys.end(), ',') + 1;
+    name = fmt::format("{} instance{}", count, count == 1 ? "" : "s");
+    if (const int number = ++sets_of_size[name]; number > 1) name += fmt::format(", set {}", number);
+  }
+  return names;
 }
 
 Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metric) {
@@ -145,7 +177,12 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
           : "''";
   return Statement::prepare(
       database.connection(),
-      fmt::format("SELECT {}, {} FROM v_trends WHERE metric = ?1 AND case_id = ?2 AND value IS NOT NULL "
+      fmt::format("SELECT {}, (SELECT group_concat(instance_id) FROM "
+                  "  (SELECT DISTINCT instance_id FROM result WHERE cell_id = "
+                  "    (SELECT cell.id FROM cell JOIN run ON run.id = cell.run_id "
+                  "     WHERE run.uuid = v_trends.run AND cell.case_id = v_trends.case_id) "
+                  "   ORDER BY instance_id)), {} "
+                  "FROM v_trends WHERE metric = ?1 AND case_id = ?2 AND value IS NOT NULL "
                   "AND excluded_reason IS NULL AND (?3 IS NULL OR suite = ?3) "
                   "AND (?4 IS NULL OR branch = ?4) "
                   "AND (?5 IS NULL OR host = ?5 OR substr(machine, 1, length(?5)) = ?5)",
@@ -164,8 +201,10 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
     auto samples = read_samples(*select);
     if (!samples) return Unexpected{samples.error()};
     select->reset();
-    for (auto& [context, values] : *samples) {
-      series.push_back({named.id, named.label, context, points_of(std::move(values)), {}});
+    std::map<std::string, std::string> names = set_names(*samples);
+    for (auto& [key, values] : *samples) {
+      series.push_back(
+          {named.id, named.label, names[key.instances], key.context, points_of(std::move(values)), {}});
     }
   }
   return series;
@@ -201,11 +240,14 @@ std::string commit_source(const TrendMetric& metric) {
            "v_fuzz_coverage.commit_hash";
   }
   if (metric.name == "benchmark-time") {
-    return "SELECT benchmark || ', ' || host AS context, v_measurements.commit_hash, "
+    return "SELECT benchmark || ', ' || program || ', ' || host || ifnull(' ' || build_type, '') AS context, "
+           "v_measurements.commit_hash, "
            "commit_.subject AS commit_subject, commit_.committed_utc, v_measurements.ancestor_count, "
            "started_utc, "
            "0 AS dirty, run AS binary_hash, real_time_ns / 1e9 AS value "
-           "FROM v_measurements LEFT JOIN commit_ ON commit_.hash = v_measurements.commit_hash "
+           "FROM v_measurements JOIN (SELECT run.uuid AS run_uuid, run.suite AS program, build.build_type "
+           "  FROM run JOIN build ON build.id = run.build_id) ON run_uuid = v_measurements.run "
+           "LEFT JOIN commit_ ON commit_.hash = v_measurements.commit_hash "
            "WHERE real_time_ns IS NOT NULL AND excluded_reason IS NULL";
   }
   return properties("avg(property_run.status <> 'passed')");
@@ -214,13 +256,15 @@ std::string commit_source(const TrendMetric& metric) {
 Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {
   auto select = Statement::prepare(
       database.connection(),
-      fmt::format("SELECT context, {} FROM ({})", kSampleColumns, commit_source(*query.metric)), kReading);
+      fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, commit_source(*query.metric)),
+      kReading);
   if (!select) return Unexpected{select.error()};
   auto samples = read_samples(*select);
   if (!samples) return Unexpected{samples.error()};
   std::vector<TrendSeries> series;
-  for (auto& [context, values] : *samples)
-    series.push_back({0, context, "", points_of(std::move(values)), {}});
+  for (auto& [key, values] : *samples) {
+    series.push_back({0, key.context, "", "", points_of(std::move(values)), {}});
+  }
   return series;
 }
 

@@ -1,5 +1,5 @@
-// The history of a metric: one series per case, one point per commit, and where the level
-// changed.
+// The history of a metric: one series per case and set of instances, one point per commit, and
+// where the level changed.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,7 @@ struct CaseFilter {
   std::optional<bool> any_angle;
   std::optional<std::int64_t> connectedness;
   std::optional<std::string> map;
+  std::optional<std::string> planner;  ///< as the table has it: "aa-sipp+weight:1.05", "cmd:mine"
 };
 
 struct TrendQuery {
@@ -61,6 +62,8 @@ struct TrendPoint {
   std::string subject;
   std::string committed_utc;  ///< or the start of the run where there is no commit
   std::string started_utc;    ///< of its first run
+  std::int64_t ancestor_count =
+      0;  ///< of the commit, by which points are in order; or that of those before it
   std::int64_t runs = 0;
   double value = 0;
 };
@@ -73,14 +76,17 @@ struct TrendChange {
 };
 
 struct TrendSeries {
-  std::int64_t case_id = 0;        ///< 0: not of a case
-  std::string label;               ///< the case in words
+  std::int64_t case_id = 0;  ///< 0: not of a case
+  std::string label;         ///< the case in words
+  /// "10 instances": of a case that was planned on several sets of them, which are not compared
+  /// with each other; else empty.
+  std::string instances;
   std::string context;             ///< machine and build, of timed metrics
   std::vector<TrendPoint> points;  ///< in order of history
   std::vector<TrendChange> changes;
 };
 
-/// Series with at least one point, by case and context. Excluded runs are left out.
+/// Series with at least one point, by case, context and set of instances. Excluded runs are left out.
 Result<std::vector<TrendSeries>> read_trend(Database& database, const TrendQuery& query);
 
 struct ChangeRules {

@@ -288,7 +288,8 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command.add_option("--map", arguments.map, "instead of the suite's maps; as `sipplab generate` takes it")
       ->excludes(folders);
   command.add_option("--robots", arguments.robots, "instead of the suite's numbers: 16,32,64")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{0}, kMostRobots));
   command.add_option("--ssi", arguments.ssi, "instead of the suite's start-safe intervals: 0,2.5,inf")
       ->delimiter(',')
       ->check(check_ssi);
@@ -341,6 +342,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                       bench::kDefaultRounding))
       ->needs(planner)
       ->check(check_positive_real)
+      ->check(real_between(0, bench::kMaxRounding))
       ->type_name("X");
   command.add_option("--seed", arguments.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))

@@ -21,6 +21,7 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
 bool set(db::CaseFilter& filter, std::string_view key, const std::string& text) {
   if (key == "environment" || key == "env") return filter.environment = text, true;
   if (key == "map") return filter.map = text, true;
+  if (key == "planner") return filter.planner = text, true;
   if (key == "reschedule") return filter.reschedule = text, true;
   if (key == "order") return filter.order = text, true;
   if (key == "robots") return (filter.robots = parse_whole(text)).has_value();
@@ -36,7 +37,7 @@ void add_case_flag(CLI::App& command, std::vector<std::string>& parts) {
   command
       .add_option("--case", parts,
                   "number of a case, or what it has: robots=64,ssi=3,environment=warehouse; also map, "
-                  "reschedule, order, connectedness, any-angle=yes|no")
+                  "reschedule, order, connectedness, any-angle=yes|no, planner=cmd:NAME")
       ->delimiter(',')
       ->type_name("CASE");
 }
@@ -53,7 +54,7 @@ Expected<db::CaseFilter, std::string> parse_case_filter(const std::vector<std::s
       return Unexpected{
           "--case " + in_quotes(part) +
           ", expected the number of a case, or one of environment=, map=, robots=, ssi=, reschedule=, "
-          "order=, connectedness=, any-angle=yes|no"};
+          "order=, connectedness=, any-angle=yes|no, planner="};
     }
   }
   return filter;

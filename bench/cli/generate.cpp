@@ -2,6 +2,7 @@
 // whatever the count.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -73,7 +74,25 @@ GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint
   return options;
 }
 
+/// What was asked for and has no place in a MovingAI map and scenario; empty where all has.
+std::string lost_in_movingai(const GenerateArguments& arguments) {
+  if (arguments.format != "movingai") return "";
+  const auto differ = [](const std::vector<std::string>& values, double usual) {
+    return std::any_of(values.begin(), values.end(),
+                       [usual](const std::string& value) { return parse_real(value) != usual; });
+  };
+  const Agent usual;
+  if (differ(arguments.radii, usual.radius_cells)) return "radii";
+  if (differ(arguments.speeds, usual.speed_cells_per_s)) return "speeds";
+  if (differ(arguments.rotation_speeds, usual.rotation_speed)) return "rotation speeds";
+  if (arguments.headings) return "headings";
+  return arguments.obstacles > 0 ? "moving obstacles" : "";
+}
+
 int run_generate(const GenerateArguments& arguments) {
+  if (const std::string lost = lost_in_movingai(arguments); !lost.empty()) {
+    return fail(kBadUsage, "sipplab: --format movingai has no place for " + lost + ", expected --format xml");
+  }
   const Expected<MapSpec, std::string> spec = parse_map_spec(arguments.map);
   if (!spec) return fail(kBadUsage, "sipplab: " + spec.error());
 
@@ -118,7 +137,9 @@ Command add_generate_command(CLI::App& program) {
   command->add_option("--map", arguments->map, "empty:WxH, random:WxH:DENSITY, warehouse, or a map file")
       ->capture_default_str()
       ->type_name("MAP");
-  command->add_option("--agents", arguments->agents, "robots in each instance")->required();
+  command->add_option("--agents", arguments->agents, "robots in each instance")
+      ->required()
+      ->check(CLI::Range(std::size_t{0}, kMostRobots));
   command->add_option("--count", arguments->count, "how many instances")
       ->check(CLI::Range(std::uint64_t{1}, kMaxInstances))
       ->capture_default_str();

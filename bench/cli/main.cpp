@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <new>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
+#include "bench/cli/usage_checks.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -68,6 +70,7 @@ int parse_and_run(int argc, char** argv) {
       add_plot_command(program),
       add_reproduce_command(program, invocation_of(argc, argv)),
   };
+  refuse_false_counts(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -77,6 +80,13 @@ int parse_and_run(int argc, char** argv) {
     return kSuccess;
   } catch (const CLI::ParseError& error) {
     return fail(kBadUsage, "sipplab: " + std::string(error.what()) + "; see " + help_command(program));
+  } catch (const std::logic_error&) {
+    // Thrown by the library where a flag is given a value, --any-angle=foo.
+    return fail(kBadUsage,
+                "sipplab: a flag with a value that is none of true and false; see " + help_command(program));
+  }
+  if (const std::string clash = overwrite_error(program); !clash.empty()) {
+    return fail(kBadUsage, "sipplab: " + clash + "; see " + help_command(program));
   }
   for (const Command& command : commands) {
     if (command.arguments->parsed()) return command.run();

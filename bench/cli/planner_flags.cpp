@@ -1,5 +1,7 @@
 #include "bench/cli/planner_flags.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "bench/cli/console.hpp"
@@ -32,7 +34,9 @@ void add_yes_or_no(CLI::App& command, const std::string& names, std::optional<bo
 }  // namespace
 
 std::string check_ssi(const std::string& text) {
-  return parse_ssi(text) ? "" : expected(text, "a number of seconds >= 0, or inf");
+  const std::optional<double> ssi_s = parse_ssi(text);
+  return ssi_s && is_ssi(*ssi_s) ? ""
+                                 : expected(text, fmt::format("seconds from 0 to {:g}, or inf", kMaxSsiS));
 }
 
 std::string check_reschedule(const std::string& text) {

@@ -82,6 +82,8 @@ inline constexpr const char* kWeightWords =
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
+/// Most robots that can be asked for: beyond, nobody waits for a plan, and memory ends first.
+inline constexpr std::size_t kMostRobots = 1'000'000;
 /// Most threads of an improvement: each holds a copy of the plan.
 inline constexpr unsigned kMostThreads = 64;
 

@@ -208,7 +208,7 @@ int run_replay(const PropertyArguments& arguments) {
     print(fmt::format("property  {}\n", text_of(property)));
   }
   if ((planned && !planned->holds) || property == bench::ProgramVerdict::kFails) return kNegativeVerdict;
-  return planned || property == bench::ProgramVerdict::kHolds ? kSuccess : kInconclusive;
+  return property == bench::ProgramVerdict::kHolds ? kSuccess : kInconclusive;
 }
 
 CLI::App* add_subcommand(CLI::App& property, const std::string& name, const std::string& description,
@@ -254,9 +254,10 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* show =
       add_subcommand(*property, "show", "one run, with its classes and counterexample", *arguments);
   add_run_argument(*show, *arguments);
-  CLI::App* replay = add_subcommand(
-      *property, "replay", "try a counterexample again; exit code 1 where it still fails, 0 where it holds",
-      *arguments);
+  CLI::App* replay = add_subcommand(*property, "replay",
+                                    "try a counterexample again; exit code 1 where it still fails, 0 where "
+                                    "it holds, 3 where its program is not there",
+                                    *arguments);
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");

@@ -70,6 +70,12 @@ int judge(const ReproduceArguments& arguments, const fs::path& database, const s
                             "or paper-quick",
                             *uuid));
   }
+  if (const std::string& method = cells->front().method; method != bench::kPaperMethod) {
+    return fail(kNothingComparable,
+                fmt::format("sipplab: run {} is of {}, expected {}, with which the paper was "
+                            "measured",
+                            *uuid, method, bench::kPaperMethod));
+  }
   const std::string source = source_of(report->run);
   print(source + "\n\n" + bench::reproduction_text(*cells));
   if (arguments.folder) {
@@ -116,6 +122,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
       ->excludes(recorded);
   command.add_option("--robots", sweep.robots, "only these numbers of robots: 64,128")
       ->delimiter(',')
+      ->check(CLI::Range(std::size_t{0}, kMostRobots))
       ->excludes(recorded);
   command.add_option("--seed", sweep.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))

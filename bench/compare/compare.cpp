@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/compare/holm.hpp"
 #include "db/statistics/statistics.hpp"
@@ -34,17 +35,40 @@ std::optional<double> par2(const db::PairedCell& cell, db::ResultRow db::PairedR
   return statistics::par2(times);
 }
 
-QualityChange quality(const db::PairedCell& cell, std::optional<double> db::ResultRow::*value) {
+/// Indices of a cell's results, those of one instance together, in order of first appearance.
+std::vector<std::vector<std::size_t>> results_by_instance(const db::PairedCell& cell) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::map<std::string_view, std::size_t> group_of;
+  for (std::size_t i = 0; i < cell.results.size(); ++i) {
+    const auto [known, is_new] = group_of.emplace(cell.results[i].instance_hash, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[known->second].push_back(i);
+  }
+  return groups;
+}
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+QualityChange quality(const db::PairedCell& cell, const Groups& instances,
+                      std::optional<double> db::ResultRow::*value) {
   std::vector<double> differences;
   double base_sum = 0;
   double head_sum = 0;
-  for (const db::PairedResult& result : cell.results) {
-    if (!is_solved(result.base) || !is_solved(result.head)) continue;
-    const double base = (result.base.*value).value_or(0);
-    const double head = (result.head.*value).value_or(0);
-    differences.push_back(head - base);
-    base_sum += base;
-    head_sum += head;
+  for (const std::vector<std::size_t>& instance : instances) {
+    double base = 0;
+    double head = 0;
+    double count = 0;
+    for (const std::size_t i : instance) {
+      const db::PairedResult& result = cell.results[i];
+      if (!is_solved(result.base) || !is_solved(result.head)) continue;
+      base += (result.base.*value).value_or(0);
+      head += (result.head.*value).value_or(0);
+      ++count;
+    }
+    if (count == 0) continue;
+    differences.push_back((head - base) / count);
+    base_sum += base / count;
+    head_sum += head / count;
   }
   QualityChange change;
   if (base_sum > 0) change.mean_ratio = head_sum / base_sum;
@@ -52,17 +76,40 @@ QualityChange quality(const db::PairedCell& cell, std::optional<double> db::Resu
   return change;
 }
 
-std::optional<double> time_ratio(const db::PairedCell& cell) {
+/// Median over instances of the median over their plannings.
+std::optional<double> time_ratio(const db::PairedCell& cell, const Groups& instances) {
   if (!cell.same_machine) return std::nullopt;
-  std::vector<double> log_ratios;
-  for (const db::PairedResult& result : cell.results) {
-    if (result.base.planning_time_ns <= 0 || result.head.planning_time_ns <= 0) continue;
-    log_ratios.push_back(std::log(static_cast<double>(result.head.planning_time_ns) /
-                                  static_cast<double>(result.base.planning_time_ns)));
+  std::vector<double> medians;
+  for (const std::vector<std::size_t>& instance : instances) {
+    std::vector<double> log_ratios;
+    for (const std::size_t i : instance) {
+      const db::PairedResult& result = cell.results[i];
+      if (result.base.planning_time_ns <= 0 || result.head.planning_time_ns <= 0) continue;
+      log_ratios.push_back(std::log(static_cast<double>(result.head.planning_time_ns) /
+                                    static_cast<double>(result.base.planning_time_ns)));
+    }
+    if (const auto median = statistics::median(std::move(log_ratios))) medians.push_back(*median);
   }
-  const std::optional<double> median = statistics::median(log_ratios);
+  const std::optional<double> median = statistics::median(std::move(medians));
   if (!median) return std::nullopt;
   return std::exp(*median);
+}
+
+/// Enters an instance as lost or gained where one side solves it more often.
+void count_flip(const db::PairedCell& cell, const std::vector<std::size_t>& instance,
+                CellComparison& comparison) {
+  std::optional<std::size_t> base_alone;
+  std::optional<std::size_t> head_alone;
+  std::ptrdiff_t balance = 0;
+  for (const std::size_t i : instance) {
+    const bool base = is_solved(cell.results[i].base);
+    const bool head = is_solved(cell.results[i].head);
+    if (base && !head && !base_alone) base_alone = i;
+    if (head && !base && !head_alone) head_alone = i;
+    balance += (head ? 1 : 0) - (base ? 1 : 0);
+  }
+  if (balance < 0) comparison.lost.push_back(*base_alone);
+  if (balance > 0) comparison.gained.push_back(*head_alone);
 }
 
 CellComparison compare_cell(const db::PairedCell& cell) {
@@ -70,24 +117,29 @@ CellComparison compare_cell(const db::PairedCell& cell) {
   comparison.cell = &cell;
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const db::PairedResult& result = cell.results[i];
-    if (const auto what = difference(result.base, result.head)) comparison.differences.push_back({i, *what});
+    if (const auto what = difference(result.base, result.head)) {
+      comparison.differences.push_back({i, *what});
+    } else if (is_cut_short(result.base) || is_cut_short(result.head)) {
+      ++comparison.cut_short;
+    }
     const bool base = is_solved(result.base);
     const bool head = is_solved(result.head);
     comparison.base_solved += base ? 1U : 0U;
     comparison.head_solved += head ? 1U : 0U;
     comparison.both_solved += base && head ? 1U : 0U;
-    if (base && !head) comparison.lost.push_back(i);
-    if (head && !base) comparison.gained.push_back(i);
     const bool newly_invalid =
         result.head.status == db::ResultStatus::kInvalid && result.base.status != db::ResultStatus::kInvalid;
     comparison.head_invalid += newly_invalid ? 1U : 0U;
   }
+  const Groups instances = results_by_instance(cell);
+  comparison.instances = instances.size();
+  for (const std::vector<std::size_t>& instance : instances) count_flip(cell, instance, comparison);
   comparison.success_p = statistics::mcnemar(comparison.lost.size(), comparison.gained.size());
-  comparison.time_ratio = time_ratio(cell);
+  comparison.time_ratio = time_ratio(cell, instances);
   comparison.base_par2_s = par2(cell, &db::PairedResult::base);
   comparison.head_par2_s = par2(cell, &db::PairedResult::head);
-  comparison.flowtime = quality(cell, &db::ResultRow::flowtime_s);
-  comparison.makespan = quality(cell, &db::ResultRow::makespan_s);
+  comparison.flowtime = quality(cell, instances, &db::ResultRow::flowtime_s);
+  comparison.makespan = quality(cell, instances, &db::ResultRow::makespan_s);
   return comparison;
 }
 
@@ -100,8 +152,8 @@ std::string cell_regression(const CellComparison& cell) {
   }
   const QualityChange& flowtime = cell.flowtime;
   if (flowtime.mean_ratio > 1 + kQualityLoss && flowtime.p_value <= kQualityLevel) {
-    return fmt::format("flowtime {:+.1f} % on {} instances (p = {:.2g})", 100 * (flowtime.mean_ratio - 1),
-                       cell.both_solved, flowtime.p_value);
+    return fmt::format("flowtime {:+.1f} % on what both solved (p = {:.2g})", 100 * (flowtime.mean_ratio - 1),
+                       flowtime.p_value);
   }
   return "";
 }
@@ -148,6 +200,17 @@ std::string regression(const CompareResult& result, const CompareOptions& option
 
 }  // namespace
 
+std::string sameness_text(const CompareResult& result) {
+  if (result.cut_short == 0) {
+    return fmt::format("all {} plannings gave the same status, plan and work", result.compared);
+  }
+  return fmt::format(
+      "all {} plannings gave the same status, and the same plan and work but for {} that the clock cut "
+      "short, "
+      "which were not compared in these",
+      result.compared, result.cut_short);
+}
+
 std::string_view name(CompareVerdict verdict) {
   switch (verdict) {
     case CompareVerdict::kSame:
@@ -169,6 +232,7 @@ CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOpt
     CellComparison comparison = compare_cell(cell);
     result.compared += cell.results.size();
     result.differing += comparison.differences.size();
+    result.cut_short += comparison.cut_short;
     result.lost += comparison.lost.size();
     result.gained += comparison.gained.size();
     result.cells.push_back(std::move(comparison));
@@ -183,10 +247,10 @@ CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOpt
                                 result.gained, result.success_p);
   } else if (result.differing > 0) {
     result.verdict = CompareVerdict::kChanged;
-    result.reason = fmt::format("{} of {} plannings gave another result, none of it worse", result.differing,
-                                result.compared);
+    result.reason = fmt::format("{} of {} plannings gave another result, and nothing is worse for certain",
+                                result.differing, result.compared);
   } else {
-    result.reason = fmt::format("all {} plannings gave the same", result.compared);
+    result.reason = sameness_text(result);
   }
   return result;
 }

@@ -27,7 +27,8 @@ struct InstanceDifference {
   Difference what;
 };
 
-/// Makespans or flowtimes of the instances that both sides solved, head over base.
+/// Makespans or flowtimes of the instances that both sides solved, head over base; of an instance the
+/// mean over those plannings that both solved.
 struct QualityChange {
   double mean_ratio = 1;
   double p_value = 1;  ///< Wilcoxon, two-sided; Holm over the cells
@@ -36,12 +37,17 @@ struct QualityChange {
 struct CellComparison {
   const db::PairedCell* cell = nullptr;
   std::vector<InstanceDifference> differences;
-  std::vector<std::size_t> lost;    ///< results solved by the base alone
-  std::vector<std::size_t> gained;  ///< by the head alone
-  std::size_t base_solved = 0;
+  /// Of different content. Repetitions and equal files of one instance are one observation: what
+  /// happens to one of them happens to all.
+  std::size_t instances = 0;
+  /// Instances that the base solves more often, each by its first result that only the base solved.
+  std::vector<std::size_t> lost;
+  std::vector<std::size_t> gained;  ///< the same for the head
+  std::size_t base_solved = 0;      ///< plannings, as all counts from here on
   std::size_t head_solved = 0;
   std::size_t head_invalid = 0;
-  double success_p = 1;  ///< McNemar, exact; Holm over the cells and all of them together
+  std::size_t cut_short = 0;  ///< by the clock on a side, with equal status: plan and work are not compared
+  double success_p = 1;       ///< McNemar over instances, exact; Holm over the cells and all of them together
   /// Median over instances of head's planning time over base's. None on different machines.
   std::optional<double> time_ratio;
   /// Mean time where an unsolved instance counts as twice the limit; none without a limit.
@@ -59,14 +65,18 @@ struct CompareOptions {
 
 struct CompareResult {
   std::vector<CellComparison> cells;
-  std::size_t compared = 0;
-  std::size_t differing = 0;  ///< results with a difference
-  std::size_t lost = 0;
+  std::size_t compared = 0;   ///< plannings
+  std::size_t differing = 0;  ///< plannings with a difference
+  std::size_t cut_short = 0;  ///< plannings of which only the status was compared
+  std::size_t lost = 0;       ///< instances, in each cell that has them
   std::size_t gained = 0;
   double success_p = 1;  ///< over all cells together
   CompareVerdict verdict = CompareVerdict::kSame;
   std::string reason;  ///< one line
 };
+
+/// What may be said where nothing differs.
+std::string sameness_text(const CompareResult& result);
 
 /// REQUIRES: `cells` outlives the result.
 CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOptions& options);

@@ -5,10 +5,6 @@
 namespace sipplab::bench {
 namespace {
 
-bool clock_struck(const db::ResultRow& row) {
-  return row.limit == "time";
-}
-
 std::string plan_text(const db::ResultRow& row) {
   return fmt::format("plan {:016x}, flowtime {:.2f}", row.plan_hash.value_or(0), row.flowtime_s.value_or(0));
 }
@@ -40,6 +36,8 @@ std::string_view name(DifferenceKind kind) {
   return "unknown";
 }
 
+bool is_cut_short(const db::ResultRow& row) { return row.limit == "time"; }
+
 std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head) {
   const bool base_invalid = base.status == db::ResultStatus::kInvalid;
   const bool head_invalid = head.status == db::ResultStatus::kInvalid;
@@ -50,7 +48,7 @@ std::optional<Difference> difference(const db::ResultRow& base, const db::Result
     return Difference{DifferenceKind::kStatus, std::string(db::name(base.status)),
                       std::string(db::name(head.status))};
   }
-  if (clock_struck(base) || clock_struck(head)) return std::nullopt;
+  if (is_cut_short(base) || is_cut_short(head)) return std::nullopt;
   if (base.plan_hash != head.plan_hash) {
     return Difference{DifferenceKind::kPlan, plan_text(base), plan_text(head)};
   }

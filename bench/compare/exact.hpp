@@ -26,8 +26,12 @@ struct Difference {
   std::string head;
 };
 
+/// Whether a wall-clock limit ended the planning, or its improvement (limit "time"): the same build may give
+/// another plan and other work then.
+bool is_cut_short(const db::ResultRow& row);
+
 /// What differs; a plan that differs says nothing about its work. None where all is alike.
-/// Results that a clock cut short (limit "time") are alike in status alone.
+/// Results that the clock cut short are compared in status alone.
 std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head);
 
 }  // namespace sipplab::bench

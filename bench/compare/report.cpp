@@ -15,7 +15,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kTimeNote =
+constexpr const char* kNotes =
+    "instances: of different content, and in brackets how many times they were planned, where that is more: "
+    "repetitions and equal files are one observation, and so counted in lost, gained and p\n"
+    "p: exact, adjusted for the number of cells (Holm)\n"
     "time: median over instances of single plannings that were not interleaved; it informs and judges "
     "nothing, `sipplab gate` does\n";
 
@@ -30,6 +33,13 @@ std::string par2_text(const CellComparison& cell) {
   return fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s);
 }
 
+/// "8", or "8 (80)" where they were planned 80 times.
+std::string instances_text(const CellComparison& cell) {
+  const std::size_t plannings = cell.cell->results.size();
+  return cell.instances == plannings ? std::to_string(plannings)
+                                     : fmt::format("{} ({})", cell.instances, plannings);
+}
+
 std::vector<TextRow> cell_rows(const CompareResult& result) {
   std::vector<TextRow> rows = {{"cell", "instances", "differ", "solved", "lost", "gained", "p", "time",
                                 "PAR-2 [s]", "both solved", "flowtime", "p", "makespan"}};
@@ -40,7 +50,7 @@ std::vector<TextRow> cell_rows(const CompareResult& result) {
     const CellComparison& cell = result.cells[i];
     const bool quality = cell.both_solved > 0;
     rows.push_back(
-        {names[i], std::to_string(cell.cell->results.size()), std::to_string(cell.differences.size()),
+        {names[i], instances_text(cell), std::to_string(cell.differences.size()),
          fmt::format("{} -> {}", cell.base_solved, cell.head_solved), std::to_string(cell.lost.size()),
          std::to_string(cell.gained.size()), p_text(cell.success_p), time_text(cell), par2_text(cell),
          std::to_string(cell.both_solved), quality ? change(cell.flowtime.mean_ratio) : "-",
@@ -103,9 +113,10 @@ std::vector<std::string> other_differences(const CompareResult& result) {
 
 std::string exact_text(const CompareResult& result) {
   return result.differing == 0
-             ? fmt::format("all {} plannings gave the same status, plan and work", result.compared)
-             : fmt::format("{} of {} plannings differ ({} lost, {} gained, p = {})", result.differing,
-                           result.compared, result.lost, result.gained, p_text(result.success_p));
+             ? sameness_text(result)
+             : fmt::format("{} of {} plannings differ; instances: {} lost, {} gained, p = {}",
+                           result.differing, result.compared, result.lost, result.gained,
+                           p_text(result.success_p));
 }
 
 std::string unpaired_text(const CompareResult& result) {
@@ -151,7 +162,8 @@ ordered_json cell_json(const CellComparison& cell) {
   json["case"] = case_words({parameters}).front();
   json["base_run"] = cell.cell->base_run;
   json["head_run"] = cell.cell->head_run;
-  json["instances"] = cell.cell->results.size();
+  json["instances"] = cell.instances;
+  json["plannings"] = cell.cell->results.size();
   json["base_solved"] = cell.base_solved;
   json["head_solved"] = cell.head_solved;
   json["success_p_value"] = cell.success_p;
@@ -187,7 +199,7 @@ std::string compare_text(const CompareReport& report) {
   std::string text = fmt::format("base {}\nhead {}\n\n", report.base.title, report.head.title);
   text += "exact: " + exact_text(result) + "\n" + first_of(flips(result), report.listed) +
           first_of(other_differences(result), report.listed) + "\n";
-  text += terminal_table(cell_rows(result), 1) + "\n" + kTimeNote + unpaired_text(result);
+  text += terminal_table(cell_rows(result), 1) + "\n" + kNotes + unpaired_text(result);
   return text + "\n" + verdict_text(result) + "\n";
 }
 
@@ -201,7 +213,7 @@ std::string compare_markdown(const CompareReport& report) {
   if (!listed.empty()) {
     text += "<details><summary>Instances</summary>\n\n```\n" + listed + "```\n\n</details>\n\n";
   }
-  return text + markdown_table(cell_rows(result), 1) + "\n" + kTimeNote + unpaired_text(result);
+  return text + markdown_table(cell_rows(result), 1) + "\n" + kNotes + unpaired_text(result);
 }
 
 std::string compare_json(const CompareReport& report) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -36,6 +37,8 @@ constexpr std::uint64_t kFileLimitMib = 256;
 constexpr std::size_t kMostWords = 200;
 /// A shell adds this to the signal that ended its command.
 constexpr int kShellSignalBase = 128;
+/// The last signal of Linux; greater exit codes are a program's own.
+constexpr int kLastSignal = 64;
 
 /// The files of one instance, and what stands for them in the command.
 struct Placeholder {
@@ -113,6 +116,34 @@ std::string shell_line(const CommandPlannerSpec& spec, const fs::path& folder, c
                      kFileLimitMib * kBlocksPerMib, spec.memory_limit_mib * kKibPerMib, command);
 }
 
+/// Whether a word means itself to the shell and may name a file by its path.
+bool is_plain_path(std::string_view word) {
+  return word.find_first_of("/.") != std::string_view::npos &&
+         std::all_of(word.begin(), word.end(), [](unsigned char c) {
+           return std::isalnum(c) != 0 ||
+                  std::string_view("/._-+@%,:").find(static_cast<char>(c)) != std::string_view::npos;
+         });
+}
+
+/// The command with absolute paths for words that name files from here, such as ./planner or script.py:
+/// it runs in a folder of its own.
+std::string with_absolute_paths(const std::string& command) {
+  std::string absolute;
+  std::string_view rest = command;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of(" \t\n"), rest.size());
+    const std::string_view word = rest.substr(0, end);
+    std::error_code ignored;
+    const fs::path path(word);
+    const bool is_file = is_plain_path(word) && path.is_relative() && fs::is_regular_file(path, ignored);
+    absolute +=
+        is_file ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string()) : std::string(word);
+    if (end < rest.size()) absolute += rest[end];
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return absolute;
+}
+
 /// Empties the folder and writes the instance into it. An error, or nothing.
 std::string write_files(const fs::path& folder, const Instance& instance, const PlannerOptions& options) {
   std::error_code ignored;
@@ -162,9 +193,16 @@ std::string last_words(const fs::path& log) {
   return words.empty() ? "" : ": " + in_quotes(words);
 }
 
+/// That ended the program, as far as the shell tells; 0 for none.
+int signal_of(const ProgramRun& run) {
+  if (run.signal != 0) return run.signal;
+  const int signal = run.exit_code - kShellSignalBase;
+  return signal > 0 && signal <= kLastSignal ? signal : 0;
+}
+
 std::string ending(const ProgramRun& run) {
-  const int signal = run.signal != 0 ? run.signal : std::max(run.exit_code - kShellSignalBase, 0);
-  if (signal > 0) return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
+  if (const int signal = signal_of(run); signal > 0)
+    return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
   return fmt::format("ended with exit code {}", run.exit_code);
 }
 
@@ -215,6 +253,11 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
                       placeholder_words()};
   }
   const std::string program = spec.command.substr(0, spec.command.find_first_of(" \t"));
+  std::error_code ignored;
+  if (program.find('/') != std::string::npos && is_plain_path(program) && !fs::exists(program, ignored)) {
+    return Unexpected{program + ": no such file, expected a program"};
+  }
+  spec.command = with_absolute_paths(spec.command);
   spec.name = name.empty() ? fs::path(program).filename().string() : name;
   return spec;
 }
@@ -247,7 +290,7 @@ db::ResultRow CommandPlanner::run(const Instance& instance, const PlannerOptions
     row.status = db::ResultStatus::kLimit;
     row.limit = "time";
     row.message = fmt::format("killed after {} s", format_real(limit_of(options) + kGraceS));
-  } else if (run.signal != 0 || run.exit_code > kShellSignalBase) {
+  } else if (signal_of(run) != 0) {
     row.message = ending(run) + last_words(log);
   } else if (const auto solution = solution_file(folder)) {
     judge(instance, options.rules, *solution, spec_.rounding, row);

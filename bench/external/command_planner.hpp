@@ -25,6 +25,9 @@ inline constexpr double kDefaultCommandLimitS = 300;
 /// up to 100 s are off by up to 1e-5 s, and a robot moves a cell a second.
 inline constexpr double kDefaultRounding = 1e-5;
 
+/// Files of so few digits say nothing of collisions: a tenth of a small robot.
+inline constexpr double kMaxRounding = 0.05;
+
 struct CommandPlannerSpec {
   std::string command;  ///< as the shell takes it, with placeholders
   std::string name;     ///< in the history: "cmd:NAME"
@@ -32,7 +35,8 @@ struct CommandPlannerSpec {
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
 };
 
-/// From "cmd:COMMAND". Named after its program unless `name` says otherwise. Errors: one line.
+/// From "cmd:COMMAND". Named after its program unless `name` says otherwise. Words of it that name files
+/// become absolute paths, since it will run elsewhere. Errors: one line.
 Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::string& text,
                                                                 const std::string& name);
 

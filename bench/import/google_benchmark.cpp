@@ -125,6 +125,8 @@ Expected<db::Measurement, std::string> read_benchmark(const Json& object,
   measurement.repetition = seen[name]++;
   measurement.iterations = static_cast<std::int64_t>(number(object, "iterations").value_or(0));
   if (object.value("error_occurred", false)) measurement.error = object.value("error_message", "error");
+  // What was skipped on purpose has no time either; its real_time is 0.
+  if (object.value("skipped", false)) measurement.error = "skipped: " + object.value("skip_message", "");
   const std::string unit = object.value("time_unit", "ns");
   const std::optional<double> factor = nanoseconds_per(unit);
   if (!factor) return Unexpected{fmt::format("{}: time_unit '{}', expected ns, us, ms or s", name, unit)};

@@ -141,13 +141,14 @@ class Page {
   void against_base() {
     section("base", "Run against base");
     if (!data_.base) return note("No earlier run of this suite: nothing to compare with.");
-    if (data_.cells.rows.empty()) return note("The two runs have no case in common.");
+    if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
     note(
-        "Instance by instance. Different: instances with another status, plan or number of expansions. Time: "
+        "Planning by planning. Different: plannings with another status, plan or number of expansions. Time: "
         "median of the "
-        "instances' ratios, on one machine and compiler only. Flowtime: the same over instances that both "
-        "solved. p: McNemar's "
-        "test of the flips. sipplab compare tells more; sipplab gate decides about times.");
+        "ratios, on one machine and compiler only. Flowtime: the same over instances that both "
+        "solved. Gained, lost and p (McNemar's test, each case by itself) count instances: repetitions and "
+        "equal "
+        "files of one are one observation. sipplab compare tells more; sipplab gate decides about times.");
     const std::string kinds = "tnntttnnnnnnnnn";
     open_table({"environment", "robots", "ssi", "re-scheduling", "order", "planner", "instances", "different",
                 "base", "run", "gained", "lost", "p", "time", "flowtime"},
@@ -202,6 +203,7 @@ class Page {
   void flips() {
     section("flips", "Flips");
     if (!data_.base) return note("No base.");
+    if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
     if (data_.flips.rows.empty()) return note("No instance is solved by one of the two runs only.");
     plain_table(data_.flips, "ttnnttttnn", 0);
   }
@@ -217,9 +219,10 @@ class Page {
       for (const db::TrendSeries& series : trend.series) {
         for (const db::TrendChange& change : series.changes) {
           const db::TrendPoint& point = series.points[change.position];
-          lines += fmt::format("<li>{} ({}, {}): {}; {}</li>\n", xml_escaped(version_name(point)),
-                               point.committed_utc.substr(0, 10), xml_escaped(point.subject),
-                               xml_escaped(series.label), xml_escaped(change_text(*trend.metric, change)));
+          lines +=
+              fmt::format("<li>{} ({}, {}): {}; {}</li>\n", xml_escaped(version_name(point)),
+                          point.committed_utc.substr(0, 10), xml_escaped(point.subject),
+                          xml_escaped(series_name(series)), xml_escaped(change_text(*trend.metric, change)));
         }
       }
       bool enough = false;
@@ -247,7 +250,8 @@ class Page {
         continue;
       }
       Chart chart = trend_chart(*trend.metric, {series});
-      chart.title = series.label;
+      chart.title = series.instances.empty() ? series.label : series.label + ", " + series.instances;
+      if (!series.context.empty()) chart.x_label = series.context;
       chart.width = 380;
       chart.height = 200;
       if (chart.x_ticks.size() > 2) chart.x_ticks = {chart.x_ticks.front(), chart.x_ticks.back()};

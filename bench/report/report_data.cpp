@@ -14,19 +14,26 @@ using Parameters = std::vector<std::pair<std::string, std::string>>;
 /// Metrics whose history the report shows.
 constexpr const char* kTrendMetrics[] = {"success", "runtime", "flowtime", "expansions"};
 
-// Times are compared where both runs come from one machine and compiler, instance by instance.
-constexpr const char* kCells = R"sql(
+// Times are compared where both runs come from one machine and compiler. Flips and their test are of
+// instances: repetitions and equal files of one are one observation.
+const std::string kCells = R"sql(
+WITH by_instance AS (
+  SELECT head.case_id AS case_id, avg(base.status = 'solved') AS base_share, avg(head.status = 'solved') AS head_share
+  FROM v_results AS head JOIN v_results AS base USING (case_id, instance_hash, position, repetition)
+  WHERE head.run = :run AND base.run = :other GROUP BY head.case_id, instance_hash),
+flips AS (
+  SELECT case_id, count(*) AS instances, sum(head_share > base_share) AS gained, sum(head_share < base_share) AS lost,
+         mcnemar(base_share > head_share, head_share > base_share) AS p_value
+  FROM by_instance GROUP BY case_id)
 SELECT head.environment AS environment, head.robots AS robots, head.ssi_s AS ssi_s, head.reschedule AS reschedule,
        head.initial_order AS initial_order,
-       iif(head.planner = 'complete', 'complete', iif(head.any_angle, 'any-angle-', 'grid-') || (1 << head.connectedness))
-         || iif(head.planner GLOB '*+complete', '+complete', '') AS planner,
-       count(*) AS pairs,
+       (SELECT )sql" + std::string(db::kPlannerNameSql) +
+                           R"sql( FROM case_ WHERE case_.id = head.case_id) AS planner_name,
+       flips.instances AS instances,
        sum(head.plan_hash IS NOT base.plan_hash OR head.status <> base.status OR head.expansions <> base.expansions)
          AS different,
        avg(base.status = 'solved') AS base_success, avg(head.status = 'solved') AS head_success,
-       sum(base.status <> 'solved' AND head.status = 'solved') AS gained,
-       sum(base.status = 'solved' AND head.status <> 'solved') AS lost,
-       mcnemar(base.status = 'solved', head.status = 'solved') AS p_value,
+       flips.gained AS gained, flips.lost AS lost, flips.p_value AS p_value,
        iif(here.machine = there.machine AND here.compiler = there.compiler,
            median(1.0 * head.planning_time_ns / base.planning_time_ns), NULL) AS time_ratio,
        sum(base.status = 'solved' AND head.status = 'solved') AS both_solved,
@@ -34,11 +41,12 @@ SELECT head.environment AS environment, head.robots AS robots, head.ssi_s AS ssi
          AS flowtime_ratio
 FROM v_results AS head
 JOIN v_results AS base USING (case_id, instance_hash, position, repetition)
+JOIN flips ON flips.case_id = head.case_id
 JOIN v_runs AS here ON here.run = head.run
 JOIN v_runs AS there ON there.run = base.run
 WHERE head.run = :run AND base.run = :other
 GROUP BY head.case_id
-ORDER BY head.environment, planner, head.initial_order, head.reschedule, head.ssi_s, head.robots)sql";
+ORDER BY head.environment, planner_name, head.initial_order, head.reschedule, head.ssi_s, head.robots)sql";
 
 constexpr const char* kFlips =
     "SELECT direction, environment, robots, ssi_s, reschedule, instance, base_status, head_status, "
@@ -59,7 +67,7 @@ constexpr const char* kFindings =
 
 db::Result<db::Done> read_tables(const std::filesystem::path& path, ReportData& data) {
   struct Question {
-    const char* sql;
+    std::string sql;
     db::Table* answer;
     bool of_pair;
   };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "bench/report/numbers.hpp"
 #include "db/aligned.hpp"
@@ -39,8 +41,14 @@ std::string shortened(const std::string& text, std::size_t length) {
   return text.substr(0, end) + "...";
 }
 
-std::string full_label(const db::TrendSeries& series) {
-  return series.context.empty() ? series.label : series.label + "; " + series.context;
+std::string label_of(const db::TrendSeries& series) {
+  return series.instances.empty() ? series.label : series.label + ", " + series.instances;
+}
+
+/// "case 7", "case 7, 10 instances", or what it is where it is of no case.
+std::string short_label(const db::TrendSeries& series) {
+  if (series.case_id == 0) return series.label;
+  return fmt::format("case {}{}{}", series.case_id, series.instances.empty() ? "" : ", ", series.instances);
 }
 
 /// Changes of one version stand together: a commit that slows one case slows many.
@@ -57,7 +65,7 @@ std::string changes_text(const db::TrendMetric& metric, const std::vector<db::Tr
       if (found == versions.end()) found = versions.insert(found, {&point, ""});
       found->second += "    ";
       if (series.size() > 1) {
-        found->second += one.case_id > 0 ? fmt::format("case {}: ", one.case_id) : one.label + ": ";
+        found->second += short_label(one) + ": ";
         if (contexts && !one.context.empty()) found->second += one.context + ": ";
       }
       found->second += change_text(metric, change) + '\n';
@@ -87,7 +95,7 @@ bool has_contexts(const std::vector<db::TrendSeries>& series) {
 std::string one_series(const db::TrendMetric& metric, const db::TrendSeries& series, std::size_t rows) {
   const std::vector<double> values = values_of(series);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  std::string text = fmt::format("{}{}\n\n{}\n{} to {}, {} version{}\n\n", full_label(series),
+  std::string text = fmt::format("{}{}\n\n{}\n{} to {}, {} version{}\n\n", series_name(series),
                                  series.case_id > 0 ? fmt::format(" (case {})", series.case_id) : "",
                                  sparkline(values, kWideSparkline), with_unit(*low, metric.unit),
                                  with_unit(*high, metric.unit), values.size(), values.size() == 1 ? "" : "s");
@@ -112,7 +120,7 @@ std::string overview(const db::TrendMetric& metric, const std::vector<db::TrendS
   std::vector<std::vector<std::string>> table;
   for (const db::TrendSeries& one : series) {
     table.push_back({one.case_id > 0 ? std::to_string(one.case_id) : "-",
-                     contexts ? full_label(one) : one.label, std::to_string(one.points.size()),
+                     contexts ? series_name(one) : label_of(one), std::to_string(one.points.size()),
                      with_unit(one.points.front().value, metric.unit),
                      with_unit(one.points.back().value, metric.unit), std::to_string(one.changes.size()),
                      sparkline(values_of(one), kNarrowSparkline)});
@@ -127,6 +135,10 @@ Json json_number(double value) {
 }
 
 }  // namespace
+
+std::string series_name(const db::TrendSeries& series) {
+  return series.context.empty() ? label_of(series) : label_of(series) + "; " + series.context;
+}
 
 std::string version_name(const db::TrendPoint& point) {
   if (point.commit.empty()) return "no commit";
@@ -185,6 +197,7 @@ Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries
     Json entry;
     entry["case_id"] = one.case_id > 0 ? Json(one.case_id) : Json(nullptr);
     entry["label"] = one.label;
+    entry["instances"] = one.instances;
     entry["context"] = one.context;
     entry["points"] = Json::array();
     for (const db::TrendPoint& point : one.points) {
@@ -212,40 +225,70 @@ Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries
   return document;
 }
 
+namespace {
+
+/// Tells versions apart, and puts them in the order of history.
+auto version_key(const db::TrendPoint& point) {
+  // A commit was first measured at another time in another series; other builds have no better name.
+  const bool is_commit = !point.commit.empty() && !point.dirty;
+  return std::tuple(point.ancestor_count, point.committed_utc, point.commit, point.dirty,
+                    is_commit ? std::string() : point.started_utc);
+}
+
+using Places = std::map<decltype(version_key(db::TrendPoint())), std::size_t>;
+
+/// The versions of all series and their places on the x axis.
+Places places_of(const std::vector<db::TrendSeries>& series) {
+  Places places;
+  for (const db::TrendSeries& one : series) {
+    for (const db::TrendPoint& point : one.points) places.emplace(version_key(point), 0);
+  }
+  std::size_t place = 0;
+  for (auto& entry : places) entry.second = place++;
+  return places;
+}
+
+}  // namespace
+
 Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series) {
   Chart chart;
   chart.title = fmt::format("{}: {}", metric.name, metric.meaning);
   chart.x_label = "versions, in order of history";
   chart.y_label =
       metric.unit.empty() ? std::string(metric.name) : fmt::format("{} [{}]", metric.name, metric.unit);
-  if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, series.front().label);
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < std::min(series.size(), kMostLines); ++i) {
-    const db::TrendSeries& one = series[i];
+  if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, label_of(series.front()));
+  if (series.size() > kMostLines) {
+    chart.title += fmt::format(" (the first {} of {} series)", kMostLines, series.size());
+  }
+  const std::vector<db::TrendSeries> drawn(
+      series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostLines)));
+  const Places places = places_of(drawn);
+  const auto x_of = [&places](const db::TrendPoint& point) {
+    return static_cast<double>(places.at(version_key(point)));
+  };
+  for (const db::TrendSeries& one : drawn) {
     ChartLine line;
-    line.colour = static_cast<int>(i);
-    if (series.size() > 1) line.label = one.case_id > 0 ? fmt::format("case {}", one.case_id) : one.label;
-    for (std::size_t k = 0; k < one.points.size(); ++k) {
-      line.points.emplace_back(static_cast<double>(k), one.points[k].value);
-    }
+    line.colour = static_cast<int>(chart.lines.size());
+    if (drawn.size() > 1) line.label = short_label(one);
+    for (const db::TrendPoint& point : one.points) line.points.emplace_back(x_of(point), point.value);
     for (const db::TrendChange& change : one.changes) {
+      const db::TrendPoint& point = one.points[change.position];
       // Between the points: the level is another from this one on.
-      line.marks.push_back({static_cast<double>(change.position) - 0.5,
-                            series.size() > 1 ? ""
-                                              : version_name(one.points[change.position]) + " " +
-                                                    signed_share(db::effect_of(change, metric), metric.rate),
-                            version_name(one.points[change.position]) + ": " + change_text(metric, change)});
-    }
-    if (one.points.size() > longest) {
-      longest = one.points.size();
-      chart.x_ticks.clear();
-      const std::size_t labels = std::min(kChartLabels, longest);
-      for (std::size_t k = 0; k < labels; ++k) {
-        const std::size_t at = labels == 1 ? 0 : k * (longest - 1) / (labels - 1);
-        chart.x_ticks.emplace_back(static_cast<double>(at), version_name(one.points[at]));
-      }
+      const std::string effect =
+          version_name(point) + " " + signed_share(db::effect_of(change, metric), metric.rate);
+      line.marks.push_back({x_of(point) - 0.5, drawn.size() > 1 ? "" : effect,
+                            version_name(point) + ": " + change_text(metric, change)});
     }
     chart.lines.push_back(std::move(line));
+  }
+  std::vector<std::string> names(places.size());
+  for (const db::TrendSeries& one : drawn) {
+    for (const db::TrendPoint& point : one.points) names[places.at(version_key(point))] = version_name(point);
+  }
+  const std::size_t labels = std::min(kChartLabels, names.size());
+  for (std::size_t k = 0; k < labels; ++k) {
+    const std::size_t at = labels == 1 ? 0 : k * (names.size() - 1) / (labels - 1);
+    chart.x_ticks.emplace_back(static_cast<double>(at), names[at]);
   }
   return chart;
 }

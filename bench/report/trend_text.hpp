@@ -21,8 +21,11 @@ std::string trend_text(const db::TrendMetric& metric, const std::vector<db::Tren
 
 nlohmann::ordered_json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series);
 
-/// x counts commits, by which it is labelled.
+/// x counts the versions of all series, by which it is labelled.
 Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series);
+
+/// The case in words, its instances where it has several sets of them, machine and build of times.
+std::string series_name(const db::TrendSeries& series);
 
 /// "1a2b3c4d5e", "1a2b3c4d5e+" with uncommitted changes, or a date.
 std::string version_name(const db::TrendPoint& point);

@@ -10,28 +10,32 @@
 
 #include "bench/report/numbers.hpp"
 #include "db/queries.hpp"
-#include "property_tests/support/rate.hpp"
 
 namespace sipplab::bench {
 namespace {
 
-/// Runs of one instance are averaged first: seeds of random re-scheduling that never had to
-/// re-schedule are one observation, not ten.
-constexpr const char* kCellsSql =
-    "WITH instance AS ("
-    "  SELECT CASE WHEN instr(environment, '/') > 0 THEN substr(environment, instr(environment, '/') + 1)"
-    "    ELSE environment END AS environment, robots, ssi_s, reschedule, initial_order, position,"
-    "    count(*) AS runs, sum(status = 'solved') AS solved, sum(planning_time_s) AS seconds,"
-    "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
-    "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
-    "  FROM v_results WHERE run = :run AND map_spec IN ('files', 'empty:32x32', 'warehouse') "
-    "  GROUP BY 1, 2, 3, 4, 5, 6) "
-    "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs), sum(solved), sum(seconds) / "
-    "sum(runs),"
-    "  sum(makespan_s) / sum(solved), sum(flowtime_s) / sum(solved), sum(solved > 0),"
-    "  avg(makespan_s / solved), avg(makespan_s / solved * makespan_s / solved),"
-    "  avg(flowtime_s / solved), avg(flowtime_s / solved * flowtime_s / solved) "
-    "FROM instance GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 4, 5, 3, 2";
+/// The paper's maps in one run.
+constexpr const char* kPaperMaps = "run = :run AND map_spec IN ('files', 'empty:32x32', 'warehouse')";
+
+/// Sums over instances, each with its number of runs, of solved runs, and their costs added up: seeds of
+/// random re-scheduling that never had to re-schedule are one observation, not ten.
+std::string cells_sql() {
+  return fmt::format(
+      "WITH instance AS ("
+      "  SELECT CASE WHEN instr(environment, '/') > 0 THEN substr(environment, instr(environment, '/') + 1)"
+      "    ELSE environment END AS environment, robots, ssi_s, reschedule, initial_order, position,"
+      "    count(*) AS runs, sum(status = 'solved') AS solved, sum(planning_time_s) AS seconds,"
+      "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
+      "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
+      "  FROM v_results WHERE {} AND {} = :method GROUP BY 1, 2, 3, 4, 5, 6) "
+      "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs), sum(solved),"
+      "  sum(seconds) / sum(runs), sum(makespan_s), sum(flowtime_s),"
+      "  count(*), sum(runs * runs), sum(runs * solved), sum(solved * solved), sum(solved > 0),"
+      "  sum(makespan_s * solved), sum(makespan_s * makespan_s),"
+      "  sum(flowtime_s * solved), sum(flowtime_s * flowtime_s) "
+      "FROM instance GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 4, 5, 3, 2",
+      kPaperMaps, db::kPlannerNameSql);
+}
 
 double real(const db::Value& value) {
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
@@ -39,27 +43,52 @@ double real(const db::Value& value) {
   return number == nullptr ? 0 : *number;
 }
 
-std::optional<double> optional_real(const db::Value& value) {
-  if (std::holds_alternative<db::Null>(value)) return std::nullopt;
-  return real(value);
-}
-
-/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960); within 0.4 %
-/// from four degrees of freedom on.
+/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960), to the fourth order; within
+/// 0.04 % from four degrees of freedom on.
 double t_quantile(double freedom) {
   constexpr double z = 1.959964;
-  constexpr double z3 = z * z * z;
-  constexpr double z5 = z3 * z * z;
-  return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
+  constexpr double z2 = z * z;
+  constexpr double first = z * (z2 + 1) / 4;
+  constexpr double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
+  constexpr double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
+  constexpr double fourth = z * ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
 }
 
-/// Half the width of a 95 % interval, from the means of values and of their squares.
-double error_of_mean(const db::Value& mean, const db::Value& mean_square, std::int64_t count) {
+/// A share of two sums over instances, such as cost over solved runs: sums of both, of their squares and of
+/// their product.
+struct RatioOfSums {
+  std::int64_t instances = 0;
+  double part = 0;
+  double whole = 0;
+  double part_squares = 0;
+  double products = 0;
+  double whole_squares = 0;
+
+  double value() const { return part / whole; }
+  /// Of the value, by the scatter of part - value * whole over instances (Cochran 1977, section 2.11).
+  double variance() const {
+    const auto n = static_cast<double>(instances);
+    const double scatter =
+        std::max(0.0, part_squares - 2 * value() * products + value() * value() * whole_squares);
+    return scatter * n / (n - 1) / (whole * whole);
+  }
+};
+
+/// Half the width of a 95 % interval.
+double error_of(const RatioOfSums& ratio) {
   constexpr std::int64_t kFewest = 5;  // of fewer a variance says next to nothing
-  if (count < kFewest) return std::numeric_limits<double>::infinity();
-  const auto n = static_cast<double>(count);
-  const double variance = std::max(0.0, real(mean_square) - real(mean) * real(mean)) * n / (n - 1);
-  return t_quantile(n - 1) * std::sqrt(variance / n);
+  if (ratio.instances < kFewest) return std::numeric_limits<double>::infinity();
+  return t_quantile(static_cast<double>(ratio.instances - 1)) * std::sqrt(ratio.variance());
+}
+
+/// Between the number of instances and that of runs.
+double independent_runs(const RatioOfSums& success) {
+  const auto fewest = static_cast<double>(success.instances);
+  const double rate = success.value();
+  if (success.instances < 2 || rate <= 0 || rate >= 1) return fewest;
+  const double variance = success.variance();
+  return variance > 0 ? std::clamp(rate * (1 - rate) / variance, fewest, success.whole) : success.whole;
 }
 
 /// The cells of one method, found by robots and start-safe interval.
@@ -166,6 +195,7 @@ Claim infinity_is_worst(const Cells& cells) {
     }
   }
   if (counted == 0) return claim;
+  if (least == 1 && infinite == 1) return claim;  // nothing is hard enough to tell
   claim.holds = infinite < least;
   claim.figures = fmt::format("{} over all densities, next worst {} with ssi {}", percent(infinite),
                               percent(least), ssi_text(least_ssi_s));
@@ -253,28 +283,59 @@ Claim longest_first_for_makespan(const Cells& cells) {
 
 Standing cost_standing(const std::optional<double>& measured, double error,
                        const std::optional<double>& paper, double share) {
-  if (!measured || !paper) return Standing::kNotMeasured;
+  if (!measured || !paper || !std::isfinite(error)) return Standing::kNotMeasured;
   if (std::abs(*measured - *paper) <= std::max(share * *paper, error)) return Standing::kReproduced;
   return *measured < *paper ? Standing::kBetter : Standing::kDiffers;
 }
 
 Standing success_standing(const MeasuredCell& cell, double paper) {
-  const ConfidenceInterval interval = wilson_interval(cell.solved, cell.runs);
+  const ConfidenceInterval interval = cell.success_interval();
   if (interval.low <= paper && paper <= interval.high) return Standing::kReproduced;
   return cell.success() > paper ? Standing::kBetter : Standing::kDiffers;
 }
 
 }  // namespace
 
+ConfidenceInterval MeasuredCell::success_interval() const {
+  const double of = independent_runs.value_or(static_cast<double>(runs));
+  return wilson_interval(success() * of, of);
+}
+
+namespace {
+
+/// How the planner of the run is called; of several, the paper's.
+db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
+  const auto table = db::run_sql(
+      database,
+      fmt::format("SELECT DISTINCT {} FROM v_results WHERE {} ORDER BY 1", db::kPlannerNameSql, kPaperMaps),
+      {{"run", run}});
+  if (!table) return Unexpected{table.error()};
+  std::string names;
+  for (const auto& row : table->rows) {
+    const std::string name = std::get<std::string>(row[0]);
+    if (table->rows.size() == 1 || name == kPaperMethod) return name;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (names.empty()) return std::string(kPaperMethod);  // nothing was measured
+  return Unexpected{db::Error{db::ErrorKind::kBadInput,
+                              fmt::format("{}: run {} has {}, expected one planner, or {} among them",
+                                          database.string(), run, names, kPaperMethod)}};
+}
+
+}  // namespace
+
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
                                                      const std::string& run) {
-  const auto table = db::run_sql(database, kCellsSql, {{"run", run}});
+  const auto method = method_of(database, run);
+  if (!method) return Unexpected{method.error()};
+  const auto table = db::run_sql(database, cells_sql(), {{"run", run}, {"method", *method}});
   if (!table) return Unexpected{table.error()};
   std::vector<MeasuredCell> cells;
   for (const auto& row : table->rows) {
     MeasuredCell cell;
     cell.environment = std::get<std::string>(row[0]);
     if (cell.environment != "empty" && cell.environment != "warehouse") continue;
+    cell.method = *method;
     cell.robots = std::get<std::int64_t>(row[1]);
     cell.ssi_s = real(row[2]);
     cell.reschedule = std::get<std::string>(row[3]);
@@ -282,11 +343,23 @@ db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path
     cell.runs = std::get<std::int64_t>(row[5]);
     cell.solved = std::get<std::int64_t>(row[6]);
     cell.mean_seconds = real(row[7]);
-    cell.mean_makespan_s = optional_real(row[8]);
-    cell.mean_flowtime_s = optional_real(row[9]);
+    const auto runs = static_cast<double>(cell.runs);
+    const auto solved = static_cast<double>(cell.solved);
     const std::int64_t instances = std::get<std::int64_t>(row[10]);
-    cell.makespan_error_s = error_of_mean(row[11], row[12], instances);
-    cell.flowtime_error_s = error_of_mean(row[13], row[14], instances);
+    const double solved_squares = real(row[13]);
+    cell.independent_runs =
+        independent_runs({instances, solved, runs, solved_squares, real(row[12]), real(row[11])});
+    if (cell.solved > 0) {
+      const std::int64_t with_plan = std::get<std::int64_t>(row[14]);
+      const RatioOfSums makespan{with_plan,     real(row[8]),  solved,
+                                 real(row[16]), real(row[15]), solved_squares};
+      const RatioOfSums flowtime{with_plan,     real(row[9]),  solved,
+                                 real(row[18]), real(row[17]), solved_squares};
+      cell.mean_makespan_s = makespan.value();
+      cell.mean_flowtime_s = flowtime.value();
+      cell.makespan_error_s = error_of(makespan);
+      cell.flowtime_error_s = error_of(flowtime);
+    }
     cells.push_back(std::move(cell));
   }
   return cells;

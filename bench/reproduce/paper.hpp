@@ -6,11 +6,16 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "db/error.hpp"
+#include "property_tests/support/rate.hpp"
 
 namespace sipplab::bench {
+
+/// How the planner is called in tables with which the paper was measured.
+inline constexpr std::string_view kPaperMethod = "any-angle-8";
 
 /// All runs of one cell of the paper's: every instance, seed and repetition.
 struct MeasuredCell {
@@ -25,15 +30,23 @@ struct MeasuredCell {
   /// Over solved runs; missing where there is none.
   std::optional<double> mean_makespan_s;
   std::optional<double> mean_flowtime_s;
-  /// Half the width of the 95 % interval of the mean, over instances; infinite below five.
+  /// Half the width of the 95 % interval of these means, by the scatter over instances; infinite below
+  /// five of them.
   double makespan_error_s = 0;
   double flowtime_error_s = 0;
+  /// So many independent runs would tell as much of success: seeds of one instance go together, and ten
+  /// of them are between one and ten. None: all runs are independent.
+  std::optional<double> independent_runs = {};
+  std::string method = std::string(kPaperMethod);  ///< the planner's name in tables
 
   double success() const { return runs == 0 ? 0 : static_cast<double>(solved) / static_cast<double>(runs); }
+  /// 95 %, Wilson's.
+  ConfidenceInterval success_interval() const;
 };
 
-/// The cells of a run, by environment, method, start-safe interval and robots. Other maps than
-/// the paper's are left out.
+/// The cells of a run, by environment, re-scheduling, start-safe interval and robots. Other maps than
+/// the paper's are left out. Of a run with several planners, weights or neighbourhoods: those of any-angle
+/// over 8 neighbours, as the paper has it; an error where there are none.
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
                                                      const std::string& run);
 
@@ -50,7 +63,8 @@ const std::vector<PaperRow>& paper_table();
 
 /// How a figure of ours stands to the paper's, which was measured on other instances. It is
 /// reproduced where its 95 % interval holds the paper's, and a flowtime within kFlowtimeShare
-/// or a makespan within kMakespanShare of the paper's as well; else it is better or it differs.
+/// or a makespan within kMakespanShare of the paper's as well; else it is better or it differs. A cost over
+/// so few instances that it has no interval is not judged.
 enum class Standing { kReproduced, kBetter, kDiffers, kNotMeasured };
 std::string_view name(Standing standing);
 inline constexpr double kFlowtimeShare = 0.01;

@@ -30,7 +30,7 @@ std::string cost_words(const std::optional<double>& measured, double error,
 }
 
 std::string success_words(const TableLine& line) {
-  const ConfidenceInterval interval = wilson_interval(line.measured->solved, line.measured->runs);
+  const ConfidenceInterval interval = line.measured->success_interval();
   return fmt::format("{:.3f} [{:.3f}, {:.3f}] ({:.2f}) {}", line.measured->success(), interval.low,
                      interval.high, line.paper.success, name(line.success));
 }
@@ -115,7 +115,9 @@ std::string html_table(const Words& words) {
 constexpr const char* kLegend =
     "In brackets: the paper. Success with its 95 % interval, makespan and flowtime over solved runs with "
     "that of "
-    "their mean. Seconds are of another machine there and judge nothing.";
+    "their mean; seeds of one instance go together in both. Costs of fewer than five instances are not "
+    "judged. "
+    "Seconds are of another machine there and judge nothing.";
 
 }  // namespace
 

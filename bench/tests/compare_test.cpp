@@ -49,7 +49,8 @@ db::PairedCell equal_cell(std::size_t count) {
   cell.same_machine = true;
   for (std::size_t i = 0; i < count; ++i) {
     const db::ResultRow row = solved(i, 100 + static_cast<double>(i));
-    cell.results.push_back({"warehouse agents:64 seed:7 index:" + std::to_string(i), "", row, row});
+    cell.results.push_back(
+        {"warehouse agents:64 seed:7 index:" + std::to_string(i), "hash " + std::to_string(i), row, row});
   }
   return cell;
 }
@@ -109,6 +110,59 @@ TEST(Compare, OneLostMayBeChanceAndManyAreNot) {
   EXPECT_EQ(result.verdict, CompareVerdict::kRegressed);
   EXPECT_DOUBLE_EQ(result.success_p, 4.0 / 128);
   EXPECT_EQ(result.cells[0].both_solved, 13U);
+}
+
+TEST(Compare, RepetitionsAndEqualFilesAreOneObservation) {
+  // Eight instances, ten plannings each; the head never solves the first.
+  std::vector<db::PairedCell> cells = {equal_cell(80)};
+  for (std::size_t i = 0; i < 80; ++i) {
+    cells[0].results[i].instance_hash = "hash " + std::to_string(i % 8);
+    if (i % 8 == 0) cells[0].results[i].head = failed();
+  }
+  const CompareResult result = compare(cells, {});
+  EXPECT_EQ(result.verdict, CompareVerdict::kInconclusive) << result.reason;
+  EXPECT_EQ(result.cells[0].instances, 8U);
+  EXPECT_EQ(result.cells[0].lost, std::vector<std::size_t>{0});
+  EXPECT_EQ(result.lost, 1U);
+  EXPECT_DOUBLE_EQ(result.success_p, 1);
+  EXPECT_EQ(result.cells[0].head_solved, 70U);
+  const CompareReport report{{"run 1", std::nullopt, {}}, {"run 2", std::nullopt, {}}, result};
+  EXPECT_NE(compare_text(report).find("8 (80)"), std::string::npos) << compare_text(report);
+}
+
+TEST(Compare, AnInstanceSolvedMoreOftenByTheHeadIsGained) {
+  std::vector<db::PairedCell> cells = {equal_cell(6)};
+  for (db::PairedResult& result : cells[0].results) result.instance_hash = "one";
+  cells[0].results[1].base = cells[0].results[2].base = failed();
+  cells[0].results[4].head = failed();
+  const CompareResult result = compare(cells, {});
+  EXPECT_TRUE(result.cells[0].lost.empty());
+  EXPECT_EQ(result.cells[0].gained, std::vector<std::size_t>{1});
+}
+
+TEST(Compare, FourInstancesPlannedOftenAreFourFlowtimes) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  for (std::size_t i = 0; i < 20; ++i) {
+    db::PairedResult& result = cells[0].results[i];
+    result.instance_hash = "hash " + std::to_string(i % 4);
+    result.head.flowtime_s = *result.base.flowtime_s * 1.2;
+  }
+  const CompareResult result = compare(cells, {});
+  EXPECT_NEAR(result.cells[0].flowtime.mean_ratio, 1.2, 1e-9);
+  EXPECT_DOUBLE_EQ(result.cells[0].flowtime.p_value, 0.125);  // 2 / 2^4, the least that four can give
+  EXPECT_NE(result.verdict, CompareVerdict::kRegressed) << result.reason;
+}
+
+TEST(Compare, WhatTheClockCutShortIsNotCalledTheSame) {
+  std::vector<db::PairedCell> cells = {equal_cell(6)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    cells[0].results[i].base.limit = cells[0].results[i].head.limit = "time";
+    cells[0].results[i].head.plan_hash = 99;
+  }
+  const CompareResult result = compare(cells, {});
+  EXPECT_EQ(result.verdict, CompareVerdict::kSame);
+  EXPECT_EQ(result.cut_short, 4U);
+  EXPECT_NE(result.reason.find("but for 4 that the clock cut short"), std::string::npos) << result.reason;
 }
 
 TEST(Compare, AnInvalidPlanIsARegressionAlone) {

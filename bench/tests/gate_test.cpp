@@ -201,7 +201,7 @@ TEST(GateCases, HoldEachTimedInstanceAndTheSmokeSuite) {
   for (const GateCell& cell : cases->cells()) timed += cell.timed ? cell.jobs.size() : 0;
   EXPECT_EQ(timed, 20U);
   EXPECT_GT(cases->jobs().size(), 100U);
-  EXPECT_EQ(cases->cells().front().name, "empty, 32 robots");
+  EXPECT_EQ(cases->cells().front().name, "empty:32x32, 32 robots");
   EXPECT_FALSE(GateCases::make("nonsense", 1));
 }
 

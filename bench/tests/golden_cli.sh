@@ -178,6 +178,47 @@ refused 'tolerance' gate --tolerance nan
 refused 'min-effect' trend success --min-effect nan --db history.db
 refused 'seconds' fuzz run --seconds nan
 refused 'weight' bench --suite smoke --weight 1,nan --db history.db
+refused 'ssi.*1e\+07' plan --instance warehouse/0.xml --ssi 1e8
+refused 'agents.*-1' generate --map empty:9x9 --agents -1 -o too_many
+refused 'agents' generate --map empty:9x9 --agents 99999999999999999999 -o too_many
+refused 'robots' bench --map empty:9x9 --robots -1 --db history.db
+refused 'robots' reproduce aamas2018 --robots 18446744073709551615 --db history.db
+refused 'max-expansions.*-1' plan --instance warehouse/0.xml --max-expansions -1
+refused 'limit.*-1' runs --limit -1 --db history.db
+refused 'rows.*-1' trend success --rows -1 --db history.db
+refused 'movingai.*radii' generate --map empty:9x9 --agents 1 --format movingai --radius 0.3 -o too_many
+refused 'movingai.*obstacles' generate --map empty:9x9 --agents 1 --format movingai --obstacles 2 -o too_many
+refused 'benchmark_out' bench --suite smoke --benchmark_out=nowhere/x.json --db history.db
+expect 0 generate --map warehouse --agents 3 --seed 899472 --speed 1000 --obstacles 3 -o quick
+"$sipplab" plan --instance quick/0.xml >out 2>err
+[ $? -le 1 ] || complain "what generate writes is not read: $(cat err)"
+refused 'none of true and false' plan --instance warehouse/0.xml --any-angle=foo
+refused 'none of true and false' plan --instance warehouse/0.xml --turns=x
+refused 'rounding' bench --map empty:9x9 --robots 1 --planner 'cmd:true {task}' --rounding 1 --db history.db
+refused 'planner.*no such file' bench --map empty:9x9 --robots 1 --planner 'cmd:./nowhere {task}' --db history.db
+
+# A file that is read, or the history, is not written over.
+cp warehouse/0.xml only_copy.xml
+refused '-o.*--instance|output.*--instance' plan --instance only_copy.xml -o ./only_copy.xml
+refused 'svg.*--instance' plan --instance only_copy.xml --svg only_copy.xml
+refused 'output.*svg|svg.*output' plan --instance only_copy.xml -o both --svg both
+expect 0 plan --instance only_copy.xml -o plan_of_copy.xml
+refused 'svg.*--solution' validate --instance only_copy.xml --solution plan_of_copy.xml --svg plan_of_copy.xml
+cmp -s only_copy.xml warehouse/0.xml || complain "an instance was written over"
+cp history.db kept.db
+refused 'svg.*--db' trend success --db kept.db --svg kept.db
+refused 'output.*--db' plot runtime --db kept.db -o kept.db
+refused 'junit.*--db' compare latest latest --db kept.db --junit kept.db
+refused 'benchmark_out.*--db' bench --suite smoke --db kept.db --benchmark_out=kept.db
+SIPPLAB_DB=kept.db refused 'svg.*the history' trend success --svg kept.db
+cmp -s kept.db history.db || complain "a history was written over"
+expect 0 plan --instance only_copy.xml -o /dev/null --svg /dev/null
+
+# Names that SQLite has a use of its own for are files.
+expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db :memory:
+expect 0 runs --db :memory:
+[ -f :memory: ] || complain "a history called :memory: is no file"
+
 refused 'no instance' plan
 refused 'missing.xml' plan --instance missing.xml
 refused 'robots' generate --map empty:2x2 --agents 5 -o too_many

@@ -130,18 +130,22 @@ cat >report.json <<'JSON'
    "real_time": 2, "cpu_time": 2, "time_unit": "us", "items": -inf},
   {"name": "nan/inf \"quoted\"", "run_type": "iteration", "iterations": 0, "real_time": 0, "cpu_time": 0,
    "error_occurred": true, "error_message": "no input", "time_unit": "ns"},
+  {"name": "on_gpu", "run_type": "iteration", "iterations": 0, "real_time": 0.0, "cpu_time": 0.0, "time_unit": "ns",
+   "skipped": true, "skip_message": "no GPU here"},
   {"name": "sort/8_mean", "run_name": "sort/8", "run_type": "aggregate", "aggregate_name": "mean", "iterations": 2,
    "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us"}]}
 JSON
 expect 0 import google-benchmark report.json --commit 0123456789abcdef --subject 'Sort faster'
-says 'suite sort_bench, 3 measurements$'
+says 'suite sort_bench, 4 measurements$'
 expect 0 import google-benchmark report.json --commit 0123456789abcdef --json
 says '"known": true'
 equal "$(ask "SELECT group_concat(real_time_ns) FROM v_measurements WHERE benchmark = 'sort/8'")" 1500.0,2000.0 "imported times"
 expect 0 trend benchmark-time
-says '^sort/8, elsewhere$'
+says '^sort/8, sort_bench, elsewhere release$'
 says '0123456789  2026-01-31 +1.75 us +2 .*Sort faster'
 equal "$(ask "SELECT error FROM v_measurements WHERE benchmark LIKE 'nan/inf%'")" "no input" "imported error"
+equal "$(ask "SELECT error, real_time_ns IS NULL FROM v_measurements WHERE benchmark = 'on_gpu'")" \
+  'skipped: no GPU here|1' "what was skipped took no time"
 equal "$(ask "SELECT started_utc || counters FROM v_measurements WHERE benchmark = 'sort/8' AND repetition = 0")" \
   '2026-01-31T12:00:00.000Z{"items":8.0}' "imported time and counters"
 printf '{"context": {}\n, "benchmarks": [' >cut.json

@@ -56,6 +56,25 @@ expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --resc
 equal "$(sqlite3 planners.db "SELECT count(*), count(DISTINCT plan_hash) FROM v_results
     WHERE planner IN ('cmd:honest', 'aa-sipp')")" '4|2' 'its plans are the same'
 
+# From where one stands, by program or by script, and whatever TMPDIR is.
+for command in './honest' 'sh ./honest' "sh ../$(basename "$work")/honest"; do
+  TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+    --db "$work/planners.db" --planner "cmd:$command {instance} {scen} {out} {config}" --planner-name "by $command" "${unlimited[@]}"
+  equal "$(sqlite3 planners.db "SELECT count(*), sum(status = 'solved') FROM v_results WHERE planner = 'cmd:by $command'")" '2|2' \
+    "a planner called as $command"
+done
+export TMPDIR=/nowhere/at/all
+expect 2 bench --map empty:9x9 --robots 4 --count 2 --db planners.db --planner "cmd:$work/honest {instance} {scen} {out} {config}"
+says '/nowhere/at/all: is no folder.*TMPDIR' err
+unset TMPDIR
+
+planner exits_with_255 <<'E2'
+"$sipplab" plan --instance "$1" -o "$3"
+exit 255
+E2
+sweeps exits_with_255 "${unlimited[@]}"
+equal "$(row exits_with_255 'status, valid')" 'solved|1' 'an exit code that is no signal'
+
 planner exits_with_1 <<'E2'
 "$sipplab" plan --instance "$1" -o "$3"
 exit 1

@@ -128,6 +128,36 @@ TEST(TrendText, tells_versions_changes_and_sizes) {
   EXPECT_EQ(json["series"][0]["points"].size(), 4U);
 }
 
+TEST(TrendChart, puts_each_series_where_its_versions_are) {
+  const auto series_of = [](int first, int last) {
+    db::TrendSeries series;
+    series.case_id = first;
+    for (int i = first; i <= last; ++i) {
+      db::TrendPoint point;
+      point.commit = std::string(40, static_cast<char>('a' + i));
+      point.ancestor_count = i;
+      point.started_utc = std::to_string(first);  // each case was first measured at a time of its own
+      point.value = i;
+      series.points.push_back(point);
+    }
+    return series;
+  };
+  db::TrendSeries late = series_of(5, 8);
+  late.changes.push_back({2, 6, 7, 0.001});
+  const Chart chart = trend_chart(*db::find_trend_metric("success"), {series_of(1, 8), late});
+  ASSERT_EQ(chart.lines.size(), 2U);
+  EXPECT_EQ(chart.lines[0].points.back().first, 7);
+  ASSERT_EQ(chart.lines[1].points.size(), 4U);
+  EXPECT_EQ(chart.lines[1].points.front().first, 4);
+  EXPECT_EQ(chart.lines[1].points.back().first, 7);
+  ASSERT_EQ(chart.lines[1].marks.size(), 1U);
+  EXPECT_EQ(chart.x_ticks.back().first, 7);
+  EXPECT_EQ(chart.x_ticks.back().second, "iiiiiiiiii");
+  const std::vector<db::TrendSeries> many(9, series_of(1, 3));
+  EXPECT_NE(trend_chart(*db::find_trend_metric("success"), many).title.find("first 7 of 9"),
+            std::string::npos);
+}
+
 db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
   db::CellSummary cell;
   cell.environment = environment;

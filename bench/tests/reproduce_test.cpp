@@ -82,6 +82,23 @@ TEST(Reproduction, WhatIsOutsideOfShareAndIntervalIsBetterOrDiffers) {
   EXPECT_EQ(line_of().success, Standing::kDiffers);
 }
 
+TEST(Reproduction, ACostOfTooFewInstancesIsNotJudged) {
+  auto cells = the_papers_cells();
+  cells[11].mean_flowtime_s = 5 * 3322.52;
+  cells[11].flowtime_error_s = kInfinite;
+  EXPECT_EQ(compare_with_table(cells)[11].flowtime, Standing::kNotMeasured);
+}
+
+TEST(Reproduction, SeedsOfOneInstanceDoNotNarrowTheIntervalOfSuccess) {
+  MeasuredCell cell = figure_cell(192, 3, 60);
+  const ConfidenceInterval of_runs = cell.success_interval();
+  cell.independent_runs = 10;
+  const ConfidenceInterval of_instances = cell.success_interval();
+  EXPECT_NEAR(of_runs.low, 0.502, 0.001);       // Wilson, 60 of 100
+  EXPECT_NEAR(of_instances.low, 0.313, 0.001);  // 6 of 10
+  EXPECT_NEAR(of_instances.high, 0.832, 0.001);
+}
+
 TEST(Reproduction, ChartsHoldEveryMeasuredCell) {
   const auto cells = the_papers_cells();
   const Chart figure = figure_chart(cells);

@@ -34,6 +34,8 @@ Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode 
   auto handle = std::make_unique<Handle>(path.string());
   int flags = SQLITE_OPEN_NOMUTEX;
   std::string target = handle->name;
+  // Names that SQLite takes for something else than a file of that name.
+  if (target.rfind("file:", 0) == 0 || target.rfind(':', 0) == 0) target = "./" + target;
   switch (mode) {
     case OpenMode::kReadWrite:
       flags |= SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;

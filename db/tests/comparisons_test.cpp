@@ -16,11 +16,12 @@ class Comparisons : public test::DatabaseTest {
  protected:
   /// A run of one case with `count` instances; returns its UUID.
   std::string record(const std::string& hash, std::int64_t ancestors, const std::string& branch,
-                     std::int64_t robots, int count) {
+                     std::int64_t robots, int count, bool dirty = false) {
     RunInfo info = test::sample_run();
     info.commit->hash = hash;
     info.commit->ancestor_count = ancestors;
     info.branch = branch;
+    info.build.dirty = dirty;
     auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
     test::record_case(recorder, test::sample_case(robots), count);
     must(recorder.finish(RunStatus::kFinished));
@@ -50,6 +51,17 @@ TEST_F(Comparisons, a_side_is_a_run_a_commit_or_a_branch) {
   EXPECT_EQ(side("aaa").error().kind, ErrorKind::kNotFound);  // too short for a hash, no branch
   EXPECT_EQ(side("develop").error().kind, ErrorKind::kNotFound);
   EXPECT_EQ(side("run:main").error().kind, ErrorKind::kNotFound);
+}
+
+TEST_F(Comparisons, a_commit_is_judged_by_builds_of_just_this_commit) {
+  record(kOlder, 7, "main", 64, 3);
+  record(kOlder, 7, "main", 64, 5, true);
+  record(kNewer, 8, "main", 64, 3, true);
+  EXPECT_EQ(must(side("commit:aaaa")).title, "commit aaaa0000 (1 run) without 1 of uncommitted changes");
+  EXPECT_EQ(must(side("main")).title, "branch main at aaab0000+ (uncommitted changes) (1 run)");
+  const std::vector<PairedCell> cells = pairs("commit:aaaa", "main");
+  ASSERT_EQ(cells.size(), 1U);
+  EXPECT_EQ(cells[0].base_only, 0U);
 }
 
 TEST_F(Comparisons, what_fits_two_things_is_refused) {

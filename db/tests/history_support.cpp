@@ -17,14 +17,15 @@ std::string record_version(const std::filesystem::path& file, const Version& ver
                            version.number,
                            version.number};
   auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
-  constexpr int kInstances = 10;
-  for (int i = 0; i < kInstances; ++i) {
+  CaseInfo parameters = sample_case(robots);
+  parameters.planner = version.planner;
+  for (int i = 0; i < version.instances; ++i) {
     ResultRow row = i < version.solved ? sample_result(i) : failed_result();
     row.planning_time_ns = static_cast<std::int64_t>(1e6 * (i + 1) * version.factor);
     if (row.flowtime_s) row.flowtime_s = 1000 * version.factor;
-    recorder.add(sample_case(robots), sample_instance(i), row);
+    recorder.add(parameters, sample_instance(i), row);
   }
-  must(recorder.commit_case(sample_case(robots)));
+  must(recorder.commit_case(parameters));
   const std::string uuid = recorder.run_uuid();
   must(recorder.finish(RunStatus::kFinished));
   return uuid;

@@ -101,6 +101,39 @@ TEST_F(Trends, times_of_two_machines_are_two_series_and_costs_are_one) {
   EXPECT_EQ(trend("success").size(), 1U);
 }
 
+TEST_F(Trends, sets_of_instances_are_not_compared_with_each_other) {
+  for (int number = 1; number <= 6; ++number) record_version(file, {number, 1, 8});
+  for (int number = 7; number <= 12; ++number) record_version(file, {number, 2, 12, false, "host", 30});
+  const auto series = trend("flowtime");
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[0].instances, "10 instances");
+  EXPECT_EQ(series[1].instances, "30 instances");
+  EXPECT_EQ(series[1].points.size(), 6U);
+  for (const TrendSeries& one : series) EXPECT_TRUE(one.changes.empty());
+  EXPECT_EQ(series[0].case_id, series[1].case_id);
+}
+
+TEST_F(Trends, of_one_set_nothing_is_said) {
+  record_version(file, {1, 1, 8});
+  EXPECT_EQ(trend("success")[0].instances, "");
+}
+
+TEST_F(Trends, planners_are_told_apart) {
+  record_version(file, {1, 1, 8, false, "host", 10, "aa-sipp+weight:1.5"});
+  record_version(file, {1, 1, 8, false, "host", 10, "cmd:mine"});
+  record_version(file, {1, 1, 8, false, "host", 10, "complete"});
+  const auto series = trend("success");
+  ASSERT_EQ(series.size(), 3U);
+  std::string labels;
+  for (const TrendSeries& one : series) labels += one.label + "\n";
+  for (const char* ending : {", any-angle-4+weight:1.5\n", ", cmd:mine\n", ", complete\n"}) {
+    EXPECT_NE(labels.find(ending), std::string::npos) << labels;
+  }
+  CaseFilter filter;
+  filter.planner = "cmd:mine";
+  EXPECT_EQ(trend("success", filter).size(), 1U);
+}
+
 TEST_F(Trends, cases_are_filtered_by_what_they_are) {
   record_version(file, {1, 1, 8}, 64);
   record_version(file, {1, 1, 8}, 128);

@@ -14,9 +14,12 @@
 namespace sipplab {
 namespace {
 
-/// Seconds. Ends of obstacles' motions; a double still tells places apart to 1e-7
-/// cells at this time and speed 1.
-constexpr double kMaxObstacleTimeS = 1e9;
+/// Seconds. Ends of obstacles' motions: at this time a double tells times apart to 2e-9 s. Robots that wait
+/// for an obstacle much longer lose the slack with which contacts are told from overlaps.
+constexpr double kMaxObstacleTimeS = 1e7;
+/// Share by which the speed of an obstacle's motion, taken from its times, may be off by their rounding: some
+/// ulp of 1e3 s over a thousandth of a second.
+constexpr double kSpeedRounding = 1e-9;
 /// Cells. An obstacle may come from beyond the grid, but not from farther away
 /// than the widest grid.
 constexpr std::int32_t kMaxObstacleDistance = static_cast<std::int32_t>(GridMap::kMaxSide);
@@ -130,7 +133,7 @@ Broken check_path(const Trajectory& trajectory, const GridMap& map) {
     }
     if (far_away(motion.to)) return too_far(motion.to);
     const double speed = distance(motion.from, motion.to) / (motion.end_s - motion.begin_s);
-    if (!(speed <= kMaxSpeedCellsPerS)) {
+    if (!(speed <= kMaxSpeedCellsPerS * (1 + kSpeedRounding))) {
       return Rule{fmt::format("motion {} has speed {}", i, speed),
                   fmt::format("at most {}", kMaxSpeedCellsPerS)};
     }

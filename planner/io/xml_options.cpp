@@ -12,7 +12,7 @@ using pugi::xml_node;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 
-constexpr NumberRange kSsis{0, kLargest, "seconds from 0, or infinity"};
+constexpr NumberRange kSsis{0, kMaxSsiS, "seconds from 0 to 1e7, or infinity"};
 constexpr NumberRange kTimeLimits{0, kLargest, "seconds above 0, or -1 for no limit", false};
 constexpr NumberRange kWeights{1, kMaxWeight, "a number from 1 to 100"};
 constexpr NumberRange kDelays{0, kMaxMotionMargin, "seconds from 0 to 100"};

@@ -47,6 +47,11 @@ std::optional<Method> parse_method(std::string_view text);
 std::optional<Fallback> parse_fallback(std::string_view text);
 
 inline constexpr double kInfiniteSsi = std::numeric_limits<double>::infinity();
+/// Longest finite start-safe interval, in seconds, on the command line and in files: at 1e7 s a double tells
+/// times apart to 2e-9 s; plans that begin later lose the slack with which contacts are told from overlaps.
+inline constexpr double kMaxSsiS = 1e7;
+/// Whether a start-safe interval may be asked for: 0 to kMaxSsiS, or infinity.
+inline bool is_ssi(double ssi_s) { return (ssi_s >= 0 && ssi_s <= kMaxSsiS) || ssi_s == kInfiniteSsi; }
 /// The time span of the paper's Table 1, in seconds.
 inline constexpr double kDefaultSsi = 5;
 /// Wall-clock seconds; the paper used five minutes.

@@ -13,13 +13,13 @@ namespace {
 /// the geometry.
 constexpr double kJumpSpeed = 2 * kMaxSpeedCellsPerS;
 
+}  // namespace
+
 bool can_be_followed(const TimedMotion& motion) {
   const double duration_s = motion.end_s - motion.begin_s;
   return motion.begin_s >= 0 && duration_s > 0 && std::isfinite(motion.end_s) &&
          distance(motion.from, motion.to) <= kJumpSpeed * duration_s;
 }
-
-}  // namespace
 
 BodyTrack make_track(const Trajectory& trajectory, double radius_cells) {
   BodyTrack track;

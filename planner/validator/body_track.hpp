@@ -16,9 +16,12 @@ struct BodyTrack {
   std::vector<LinearMotion> motions;
 };
 
-/// Never fails. Motions that nothing could make are left out, for other checks
-/// report them: an end no later than the begin, times that are not finite, more
-/// than twice kMaxSpeedCellsPerS. A radius that is not a number from 0 to
+/// Whether a motion has a place at each time from its begin to its end: finite times, the end after the
+/// begin, and at most twice kMaxSpeedCellsPerS.
+bool can_be_followed(const TimedMotion& motion);
+
+/// Never fails. Motions that cannot be followed are left out; the check of
+/// single trajectories reports those that go anywhere. A radius that is not a number from 0 to
 /// kMaxRadiusCells counts as the nearest one that is.
 BodyTrack make_track(const Trajectory& trajectory, double radius_cells);
 

@@ -23,14 +23,12 @@ std::optional<double> Rate::value() const {
   return static_cast<double>(held) / static_cast<double>(applicable());
 }
 
-ConfidenceInterval wilson_interval(std::int64_t held, std::int64_t of) {
+ConfidenceInterval wilson_interval(double held, double of) {
   if (of == 0) return {};
-  const auto cases = static_cast<double>(of);
-  const double rate = static_cast<double>(held) / cases;
-  const double weight = kNormalQuantile * kNormalQuantile / cases;
+  const double rate = held / of;
+  const double weight = kNormalQuantile * kNormalQuantile / of;
   const double middle = (rate + weight / 2) / (1 + weight);
-  const double half =
-      kNormalQuantile * std::sqrt(rate * (1 - rate) / cases + weight / (4 * cases)) / (1 + weight);
+  const double half = kNormalQuantile * std::sqrt(rate * (1 - rate) / of + weight / (4 * of)) / (1 + weight);
   // Exact at the ends, where rounding leaves a trace.
   return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
 }
@@ -43,7 +41,8 @@ std::string rate_table_heading() {
 }
 
 std::string rate_table_row(const Rate& rate) {
-  const ConfidenceInterval interval = wilson_interval(rate.held, rate.applicable());
+  const ConfidenceInterval interval =
+      wilson_interval(static_cast<double>(rate.held), static_cast<double>(rate.applicable()));
   std::array<char, 16> value{"-"};
   if (rate.value()) std::snprintf(value.data(), value.size(), "%.4f", *rate.value());
   std::array<char, 256> line{};

@@ -187,7 +187,7 @@ TEST(IoXmlInstance, BadOptionsNameTheirLine) {
   EXPECT_EQ(option_error("connectedness", "2.5"), "f:3: <connectedness> '2.5', expected an integer");
   EXPECT_EQ(option_error("weight", "0.5"), "f:3: <weight> '0.5', expected a number from 1 to 100");
   EXPECT_EQ(option_error("startsafeinterval", "-1"),
-            "f:3: <startsafeinterval> '-1', expected seconds from 0, or infinity");
+            "f:3: <startsafeinterval> '-1', expected seconds from 0 to 1e7, or infinity");
   EXPECT_EQ(option_error("timelimit", "0"),
             "f:3: <timelimit> '0', expected seconds above 0, or -1 for no limit");
   EXPECT_EQ(option_error("waitbeforemove", "101"),

@@ -29,7 +29,8 @@ TEST(Rate, IntervalsAreThoseOfTheLiterature) {
   };
   for (const Known& known : {Known{81, 263, 0.2553, 0.3662}, Known{15, 148, 0.0624, 0.1605},
                              Known{0, 20, 0.0000, 0.1611}, Known{1, 29, 0.0061, 0.1718}}) {
-    const ConfidenceInterval interval = wilson_interval(known.held, known.of);
+    const ConfidenceInterval interval =
+        wilson_interval(static_cast<double>(known.held), static_cast<double>(known.of));
     EXPECT_NEAR(interval.low, known.low, 5e-5) << known.held;
     EXPECT_NEAR(interval.high, known.high, 5e-5) << known.held;
   }

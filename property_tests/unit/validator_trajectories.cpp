@@ -150,6 +150,18 @@ TEST(ValidatorTrajectory, LetsRoundingPass) {
   EXPECT_TRUE(validate(scene.instance, scene.solution).valid());
 }
 
+TEST(ValidatorTrajectory, SeesAJumpHoweverLateItIs) {
+  // At 2e6 s the tolerance of times is 2e-3 s, which is all that two cells take at this speed.
+  constexpr double kLateS = 2e6;
+  OneRobot scene;
+  scene.instance.agents[0].speed_cells_per_s = 1000;
+  scene.instance.agents[0].goal = {2, 0};
+  scene.solution.trajectories[0].motions = {{0, kLateS, {0, 0}, {0, 0}}, {kLateS, kLateS, {0, 0}, {2, 0}}};
+  EXPECT_TRUE(has(validate(scene.instance, scene.solution), ViolationKind::kSpeed));
+  scene.motion(1).end_s = kLateS + 0.002;
+  EXPECT_TRUE(validate(scene.instance, scene.solution).valid());
+}
+
 TEST(ValidatorTrajectory, MeasuresSweptBodiesAgainstCorners) {
   // The way from (1, 1) to (3, 2) passes the upper right corner of cell (1, 2).
   OneRobot scene;

@@ -1,0 +1,113 @@
+#include "bench/cli/usage_checks.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "db/database.hpp"
+#include "planner/io/text.hpp"
+
+namespace sipplab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of options, of any command, that name files.
+constexpr std::string_view kWritten[] = {"output", "svg", "junit"};
+constexpr std::string_view kRead[] = {"instance", "map", "task", "config", "obstacles", "solution"};
+constexpr std::string_view kHistory = "db";
+/// Of Google Benchmark, which parses it itself.
+constexpr std::string_view kBenchmarkOut = "--benchmark_out=";
+
+struct NamedFile {
+  std::string option;  ///< "--svg"
+  fs::path path;
+  bool written = false;
+};
+
+std::string check_count(const std::string& text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool fits = error == std::errc() && end == text.data() + text.size();
+  return fits ? "" : in_quotes(text) + ", expected a whole number >= 0 of 64 bits";
+}
+
+bool has_name(const CLI::Option& option, std::string_view name) {
+  const std::vector<std::string>& names = option.get_lnames();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The files that the commands on the line name.
+void collect(const CLI::App& command, std::vector<NamedFile>& files, bool& has_history) {
+  for (const CLI::Option* option : command.get_options()) {
+    const auto is_one_of = [option](const auto& names) {
+      return std::any_of(std::begin(names), std::end(names),
+                         [option](std::string_view name) { return has_name(*option, name); });
+    };
+    const bool written = is_one_of(kWritten);
+    const bool history = has_name(*option, kHistory);
+    has_history = has_history || history;
+    if (option->count() == 0 || !(written || history || is_one_of(kRead))) continue;
+    for (const std::string& text : option->results()) {
+      files.push_back({"--" + option->get_lnames().front(), text, written});
+    }
+  }
+  for (const std::string& text : command.remaining()) {
+    if (text.rfind(kBenchmarkOut, 0) == 0) {
+      files.push_back({"--benchmark_out", text.substr(kBenchmarkOut.size()), true});
+    }
+  }
+  for (const CLI::App* named : command.get_subcommands()) collect(*named, files, has_history);
+}
+
+/// Whether writing one of them loses the other.
+bool is_same_file(const NamedFile& a, const NamedFile& b) {
+  std::error_code error;
+  if (fs::exists(a.path, error) && fs::exists(b.path, error)) {
+    // Folders keep both; streams such as /dev/null may be written as often as one likes.
+    return fs::is_regular_file(a.path, error) && fs::equivalent(a.path, b.path, error);
+  }
+  // What is not there yet is lost only if both are written; what would be read may be the name of a map.
+  if (!a.written || !b.written || a.path.empty()) return false;
+  const auto normal = [&error](const NamedFile& file) {
+    return fs::absolute(file.path, error).lexically_normal();
+  };
+  return normal(a) == normal(b);
+}
+
+void refuse_false_counts_of(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_name().rfind("UINT", 0) == 0) option->check(check_count, "");
+  }
+  for (CLI::App* nested : command.get_subcommands([](const CLI::App*) { return true; })) {
+    refuse_false_counts_of(*nested);
+  }
+}
+
+}  // namespace
+
+void refuse_false_counts(CLI::App& program) { refuse_false_counts_of(program); }
+
+std::string overwrite_error(const CLI::App& program) {
+  std::vector<NamedFile> files;
+  bool has_history = false;
+  collect(program, files, has_history);
+  const bool names_history =
+      std::any_of(files.begin(), files.end(), [](const NamedFile& file) { return file.option == "--db"; });
+  if (has_history && !names_history) files.push_back({"the history", db::database_path({}), false});
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      if (i == k || !files[i].written || !is_same_file(files[i], files[k])) continue;
+      return files[i].option + " " + files[i].path.string() + " would overwrite " + files[k].option +
+             ", expected a file of its own";
+    }
+  }
+  return "";
+}
+
+}  // namespace sipplab::cli
