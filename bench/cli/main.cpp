@@ -78,6 +78,10 @@ int parse_and_run(int argc, char** argv) {
     program.exit(help, text, text);
     print(text.str());
     return kSuccess;
+  } catch (const CLI::RequiredError& error) {
+    const bool unknown = program.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
+    const std::string what = unknown ? "no command is called " + std::string(argv[1]) : error.what();
+    return fail(kBadUsage, "sipplab: " + what + "; see " + help_command(program));
   } catch (const CLI::ParseError& error) {
     return fail(kBadUsage, "sipplab: " + std::string(error.what()) + "; see " + help_command(program));
   } catch (const std::logic_error&) {

@@ -1,10 +1,12 @@
 // sipplab merge: many histories into one.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
@@ -34,6 +36,13 @@ std::string summary(const std::string& file, const db::MergeReport& report) {
 }
 
 int run_merge(const MergeArguments& arguments) {
+  // Before the history is opened, which makes a missing one.
+  for (const std::string& file : arguments.files) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) {
+      return fail(kBadUsage, file + ": no such file, expected a history");
+    }
+  }
   auto database = db::Database::open(db::database_path(arguments.database));
   if (!database) return fail(database.error());
   nlohmann::ordered_json document;

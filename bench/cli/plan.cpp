@@ -41,6 +41,8 @@ constexpr double kBestTimeLimitS = 30;
 
 /// Lines of the curve that the summary prints at most; JSON has all of them.
 constexpr std::size_t kCurveLines = 12;
+/// Ejections that are printed one by one; a run that fails may have thousands. --json has all.
+constexpr std::size_t kEjectionLines = 20;
 
 using bench::RefinedPlan;
 
@@ -94,7 +96,9 @@ std::string steps_text(const std::vector<BestStep>& steps) {
 
 std::string ejections_text(const std::vector<EjectionRecord>& ejections, const Instance& instance) {
   std::string text;
-  for (const EjectionRecord& record : ejections) {
+  for (std::size_t i = 0; i < ejections.size(); ++i) {
+    if (i == kEjectionLines) return text + fmt::format("ejected     {} times more\n", ejections.size() - i);
+    const EjectionRecord& record = ejections[i];
     text += fmt::format("ejected     by {}:", instance.agents[record.failed].id);
     for (const AgentIndex robot : record.ejected) text += " " + instance.agents[robot].id;
     text += "\n";
@@ -133,7 +137,7 @@ std::string summary(const SolutionDocument& document, const RefinedPlan& outcome
                                  document.valid ? ", valid" : "", instance.agents.size());
   if (document.makespan_s) text += fmt::format("makespan    {:.3f} s\n", *document.makespan_s);
   if (document.flowtime_s) text += fmt::format("flowtime    {:.3f} s\n", *document.flowtime_s);
-  if (document.made_by == name(Method::kComplete)) {
+  if (document.status == "solved" && document.made_by == name(Method::kComplete)) {
     text += "made by     the complete planner\n";
     if (document.ssi_kept_s) {
       text += fmt::format("ssi kept    {} of {} s\n", format_ssi(*document.ssi_kept_s),

@@ -66,7 +66,7 @@ int run_plot(const PlotArguments& arguments) {
   if (filter->id || filter->map) {
     return fail(kBadUsage,
                 "sipplab: --case id and map, expected environment, robots, ssi, reschedule, "
-                "order, any_angle or connectedness for a picture");
+                "order, any-angle, connectedness or planner for a picture");
   }
   const auto runs = read_runs(arguments);
   if (!runs) return fail(runs.error());

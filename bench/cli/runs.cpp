@@ -1,6 +1,7 @@
 // sipplab runs: what the history holds, newest first; and leaving a run out of
 // comparisons, with a reason.
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -24,11 +25,20 @@ struct RunsArguments {
 };
 
 int change_exclusion(const RunsArguments& arguments) {
-  auto database = db::Database::open(db::database_path(arguments.history.database));
+  const auto path = db::database_path(arguments.history.database);
+  // Opened for writing, a missing file would become an empty history.
+  if (const auto existing = db::Database::open_read_only(path); !existing) return fail(existing.error());
+  auto database = db::Database::open(path);
   if (!database) return fail(database.error());
   const auto done = arguments.exclude ? db::exclude_run(*database, *arguments.exclude, *arguments.reason)
                                       : db::include_run(*database, *arguments.include);
   if (!done) return fail(done.error());
+  if (arguments.history.output_format() == db::OutputFormat::kJson) {
+    nlohmann::ordered_json json;
+    json["run"] = arguments.exclude ? *arguments.exclude : *arguments.include;
+    json["excluded"] = arguments.exclude.has_value();
+    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  }
   return kSuccess;
 }
 

@@ -13,8 +13,8 @@
 namespace sipplab::bench {
 namespace {
 
-constexpr std::array<const char*, 7> kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                              "#e69f00", "#56b4e9", "#7f7f7f"};
+constexpr std::array<const char*, kMostChartLines> kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                            "#e69f00", "#56b4e9", "#7f7f7f"};
 // Pixels. The legend stands to the right of the plot, where no line can hide behind it.
 constexpr double kLeft = 64;
 constexpr double kTop = 34;
@@ -261,6 +261,10 @@ std::string xml_escaped(const std::string& text) {
     }
   }
   return escaped;
+}
+
+std::string omission_note(std::size_t lines) {
+  return lines > kMostChartLines ? fmt::format(" (the first {} of {} lines)", kMostChartLines, lines) : "";
 }
 
 std::string svg(const Chart& chart, SvgUse use) { return Drawing(chart).svg(use); }

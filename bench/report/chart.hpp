@@ -2,12 +2,19 @@
 // colour-blindness can tell apart (Okabe & Ito 2008).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sipplab::bench {
+
+/// More lines than this are no picture: there are as many colours, and the legend ends with the plot.
+inline constexpr std::size_t kMostChartLines = 7;
+
+/// " (the first 7 of 36 lines)", or nothing where all are drawn.
+std::string omission_note(std::size_t lines);
 
 struct ChartMark {
   double x = 0;

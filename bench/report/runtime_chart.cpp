@@ -35,7 +35,7 @@ bool admits(const db::CaseFilter& filter, const db::CellSummary& cell) {
   return agrees(filter.environment, cell.environment) && agrees(filter.robots, cell.robots) &&
          agrees(filter.ssi_s, cell.ssi_s) && agrees(filter.reschedule, cell.reschedule) &&
          agrees(filter.order, cell.order) && agrees(filter.any_angle, cell.any_angle) &&
-         agrees(filter.connectedness, cell.connectedness);
+         agrees(filter.connectedness, cell.connectedness) && agrees(filter.planner, cell.planner);
 }
 
 /// The parts joined that `wanted` says, an entry for each part.
@@ -75,7 +75,9 @@ Chart runtime_chart(const std::vector<db::RunReport>& runs, const db::CaseFilter
   chart.x_label = "robots";
   chart.y_label = "median planning time [ms]";
   chart.log_y = true;
+  chart.title += omission_note(lines.size());
   for (const auto& [name, points] : lines) {
+    if (chart.lines.size() == kMostChartLines) break;
     ChartLine line;
     line.label = joined(name, varies);
     line.colour = static_cast<int>(chart.lines.size());

@@ -25,8 +25,6 @@ constexpr std::size_t kDateLength = 10;
 constexpr std::size_t kSubjectLength = 48;
 /// Labels on the x axis; more would run into each other.
 constexpr std::size_t kChartLabels = 5;
-/// More lines than this are no picture.
-constexpr std::size_t kMostLines = 7;
 
 std::vector<double> values_of(const db::TrendSeries& series) {
   std::vector<double> values;
@@ -257,11 +255,9 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
   chart.y_label =
       metric.unit.empty() ? std::string(metric.name) : fmt::format("{} [{}]", metric.name, metric.unit);
   if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, label_of(series.front()));
-  if (series.size() > kMostLines) {
-    chart.title += fmt::format(" (the first {} of {} series)", kMostLines, series.size());
-  }
+  chart.title += omission_note(series.size());
   const std::vector<db::TrendSeries> drawn(
-      series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostLines)));
+      series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostChartLines)));
   const Places places = places_of(drawn);
   const auto x_of = [&places](const db::TrendPoint& point) {
     return static_cast<double>(places.at(version_key(point)));

@@ -166,6 +166,9 @@ dump() { sqlite3 history.db .dump | cksum; }
 before=$(dump)
 
 refused 'subcommand'
+refused 'no command is called frobnicate' frobnicate
+refused 'no such file|nothing.db' runs --exclude latest --reason x --db nothing.db
+[ ! -e nothing.db ] || complain "a history was made where a run was to be excluded"
 refused 'frobnicate' plan --frobnicate
 refused 'ssi' plan --instance warehouse/0.xml --ssi -1
 refused 'ssi' plan --instance warehouse/0.xml --ssi nan

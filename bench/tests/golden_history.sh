@@ -42,6 +42,8 @@ equal "$(ask 'SELECT count(*) FROM result')" "$before" "results after merging ag
 equal "$(ask 'SELECT group_concat(DISTINCT origin) FROM run')" "a.db,b.db" "origins"
 refused 'merged into itself' merge sipplab.db
 refused 'none.db: no such file' merge none.db
+refused 'none.db: no such file' merge none.db --db fresh.db
+[ ! -e fresh.db ] || complain "a history was made by merging nothing"
 
 # --- a history of versions ---------------------------------------------------------------
 
@@ -95,7 +97,8 @@ refused 'property-cases is not of a case' trend property-cases --suite smoke
 refused "'speed', expected one of success" trend speed
 refused "'density=3', expected the number of a case" trend success --case density=3
 worst=00000000-0000-4000-8000-000000000006
-expect 0 runs --exclude "$worst" --reason 'swapping'
+expect 0 runs --exclude "$worst" --reason 'swapping' --json
+says '"excluded": true'
 expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
 grep -q '^0600000000' out && complain "an excluded run is in the trend"
 expect 0 runs --include "$worst"

@@ -154,8 +154,23 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
   EXPECT_EQ(chart.x_ticks.back().first, 7);
   EXPECT_EQ(chart.x_ticks.back().second, "iiiiiiiiii");
   const std::vector<db::TrendSeries> many(9, series_of(1, 3));
-  EXPECT_NE(trend_chart(*db::find_trend_metric("success"), many).title.find("first 7 of 9"),
+  EXPECT_NE(trend_chart(*db::find_trend_metric("success"), many).title.find("first 7 of 9 lines"),
             std::string::npos);
+}
+
+TEST(RuntimeChart, draws_as_many_lines_as_there_are_colours) {
+  db::RunReport run;
+  for (int ssi_s = 0; ssi_s < 9; ++ssi_s) {
+    db::CellSummary cell;
+    cell.environment = "empty";
+    cell.robots = 8;
+    cell.ssi_s = ssi_s;
+    cell.median_planning_time_s = 0.01;
+    run.cells.push_back(cell);
+  }
+  const Chart chart = runtime_chart({run}, {});
+  EXPECT_EQ(chart.lines.size(), kMostChartLines);
+  EXPECT_NE(chart.title.find("first 7 of 9"), std::string::npos) << chart.title;
 }
 
 db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
