@@ -110,7 +110,9 @@ Command add_trend_command(CLI::App& program) {
   command->add_flag("--json", arguments->json, "print one JSON document");
   command->footer(
       "One point for each commit: the median of its runs; builds with uncommitted changes are points of\n"
-      "their own. Times are compared on one machine and kind of build only. A change is marked when it is\n"
+      "their own. Times are compared on one machine and kind of build only, results on one set of\n"
+      "instances: a case that was planned on several sets has a series for each. A change is marked when it "
+      "is\n"
       "significant over all series shown and not too small; it informs, `sipplab gate` decides.");
   return {command, [arguments] { return run_trend(*arguments); }};
 }

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -80,18 +79,16 @@ bool is_same_file(const NamedFile& a, const NamedFile& b) {
   return normal(a) == normal(b);
 }
 
-void refuse_false_counts_of(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    if (option->get_type_name().rfind("UINT", 0) == 0) option->check(check_count, "");
-  }
-  for (CLI::App* nested : command.get_subcommands([](const CLI::App*) { return true; })) {
-    refuse_false_counts_of(*nested);
-  }
-}
-
 }  // namespace
 
-void refuse_false_counts(CLI::App& program) { refuse_false_counts_of(program); }
+void refuse_false_counts(CLI::App& program) {
+  for (CLI::Option* option : program.get_options()) {
+    if (option->get_type_name().rfind("UINT", 0) == 0) option->check(check_count, "");
+  }
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    refuse_false_counts(*command);
+  }
+}
 
 std::string overwrite_error(const CLI::App& program) {
   std::vector<NamedFile> files;

@@ -13,8 +13,7 @@ namespace {
 /// A part of the name; the first two are always there.
 using Part = std::string (*)(const db::CaseInfo&);
 const Part kParts[] = {
-    // The name of a generated map tells its size as well.
-    [](const db::CaseInfo& c) { return c.map_spec == "files" ? c.environment : c.map_spec; },
+    [](const db::CaseInfo& c) { return place_name(c.map_spec, c.environment); },
     [](const db::CaseInfo& c) { return fmt::format("{} robots", c.robots); },
     [](const db::CaseInfo& c) { return "ssi " + format_ssi(c.ssi_s); },
     [](const db::CaseInfo& c) { return c.reschedule; },

@@ -35,9 +35,11 @@ std::optional<double> par2(const db::PairedCell& cell, db::ResultRow db::PairedR
   return statistics::par2(times);
 }
 
+using Groups = std::vector<std::vector<std::size_t>>;
+
 /// Indices of a cell's results, those of one instance together, in order of first appearance.
-std::vector<std::vector<std::size_t>> results_by_instance(const db::PairedCell& cell) {
-  std::vector<std::vector<std::size_t>> groups;
+Groups results_by_instance(const db::PairedCell& cell) {
+  Groups groups;
   std::map<std::string_view, std::size_t> group_of;
   for (std::size_t i = 0; i < cell.results.size(); ++i) {
     const auto [known, is_new] = group_of.emplace(cell.results[i].instance_hash, groups.size());
@@ -46,8 +48,6 @@ std::vector<std::vector<std::size_t>> results_by_instance(const db::PairedCell& 
   }
   return groups;
 }
-
-using Groups = std::vector<std::vector<std::size_t>>;
 
 QualityChange quality(const db::PairedCell& cell, const Groups& instances,
                       std::optional<double> db::ResultRow::*value) {
@@ -147,7 +147,7 @@ CellComparison compare_cell(const db::PairedCell& cell) {
 std::string cell_regression(const CellComparison& cell) {
   if (cell.head_invalid > 0) return fmt::format("{} plans of the head are invalid", cell.head_invalid);
   if (cell.lost.size() > cell.gained.size() && cell.success_p <= kSuccessLevel) {
-    return fmt::format("{} instances lost, {} gained (p = {:.2g})", cell.lost.size(), cell.gained.size(),
+    return fmt::format("instances: {} lost, {} gained (p = {:.2g})", cell.lost.size(), cell.gained.size(),
                        cell.success_p);
   }
   const QualityChange& flowtime = cell.flowtime;
@@ -189,8 +189,8 @@ std::string regression(const CompareResult& result, const CompareOptions& option
                        cell.regression);
   }
   if (result.lost > result.gained && result.success_p <= kSuccessLevel) {
-    return fmt::format("{} instances lost, {} gained over all cells (p = {:.2g})", result.lost, result.gained,
-                       result.success_p);
+    return fmt::format("instances: {} lost, {} gained over all cells (p = {:.2g})", result.lost,
+                       result.gained, result.success_p);
   }
   if (options.exact && result.differing > 0) {
     return fmt::format("{} of {} plannings gave another result", result.differing, result.compared);
@@ -243,8 +243,8 @@ CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOpt
     result.verdict = CompareVerdict::kRegressed;
   } else if (result.lost > result.gained) {
     result.verdict = CompareVerdict::kInconclusive;
-    result.reason = fmt::format("{} instances lost, {} gained, which may be chance (p = {:.2g})", result.lost,
-                                result.gained, result.success_p);
+    result.reason = fmt::format("instances: {} lost, {} gained, which may be chance (p = {:.2g})",
+                                result.lost, result.gained, result.success_p);
   } else if (result.differing > 0) {
     result.verdict = CompareVerdict::kChanged;
     result.reason = fmt::format("{} of {} plannings gave another result, and nothing is worse for certain",

@@ -16,7 +16,8 @@ constexpr const char* kTrendMetrics[] = {"success", "runtime", "flowtime", "expa
 
 // Times are compared where both runs come from one machine and compiler. Flips and their test are of
 // instances: repetitions and equal files of one are one observation.
-const std::string kCells = R"sql(
+std::string cells_sql() {
+  return R"sql(
 WITH by_instance AS (
   SELECT head.case_id AS case_id, avg(base.status = 'solved') AS base_share, avg(head.status = 'solved') AS head_share
   FROM v_results AS head JOIN v_results AS base USING (case_id, instance_hash, position, repetition)
@@ -27,8 +28,9 @@ flips AS (
   FROM by_instance GROUP BY case_id)
 SELECT head.environment AS environment, head.robots AS robots, head.ssi_s AS ssi_s, head.reschedule AS reschedule,
        head.initial_order AS initial_order,
-       (SELECT )sql" + std::string(db::kPlannerNameSql) +
-                           R"sql( FROM case_ WHERE case_.id = head.case_id) AS planner_name,
+       (SELECT )sql" +
+         std::string(db::kPlannerNameSql) +
+         R"sql( FROM case_ WHERE case_.id = head.case_id) AS planner_name,
        flips.instances AS instances,
        sum(head.plan_hash IS NOT base.plan_hash OR head.status <> base.status OR head.expansions <> base.expansions)
          AS different,
@@ -47,6 +49,7 @@ JOIN v_runs AS there ON there.run = base.run
 WHERE head.run = :run AND base.run = :other
 GROUP BY head.case_id
 ORDER BY head.environment, planner_name, head.initial_order, head.reschedule, head.ssi_s, head.robots)sql";
+}
 
 constexpr const char* kFlips =
     "SELECT direction, environment, robots, ssi_s, reschedule, instance, base_status, head_status, "
@@ -72,7 +75,7 @@ db::Result<db::Done> read_tables(const std::filesystem::path& path, ReportData& 
     bool of_pair;
   };
   for (const Question& question :
-       {Question{kCells, &data.cells, true}, Question{kFlips, &data.flips, true},
+       {Question{cells_sql(), &data.cells, true}, Question{kFlips, &data.flips, true},
         Question{kProperties, &data.properties, false}, Question{kFuzzRuns, &data.fuzz_runs, false},
         Question{kFindings, &data.findings, false}}) {
     if (question.of_pair && !data.base) continue;

@@ -132,6 +132,27 @@ Json json_number(double value) {
   return std::isinf(value) ? Json(short_number(value)) : Json(value);
 }
 
+/// Tells versions apart, and puts them in the order of history.
+auto version_key(const db::TrendPoint& point) {
+  // A commit was first measured at another time in another series; other builds have no better name.
+  const bool is_commit = !point.commit.empty() && !point.dirty;
+  return std::tuple(point.ancestor_count, point.committed_utc, point.commit, point.dirty,
+                    is_commit ? std::string() : point.started_utc);
+}
+
+using Places = std::map<decltype(version_key(db::TrendPoint())), std::size_t>;
+
+/// The versions of all series and their places on the x axis.
+Places places_of(const std::vector<db::TrendSeries>& series) {
+  Places places;
+  for (const db::TrendSeries& one : series) {
+    for (const db::TrendPoint& point : one.points) places.emplace(version_key(point), 0);
+  }
+  std::size_t place = 0;
+  for (auto& entry : places) entry.second = place++;
+  return places;
+}
+
 }  // namespace
 
 std::string series_name(const db::TrendSeries& series) {
@@ -222,31 +243,6 @@ Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries
   }
   return document;
 }
-
-namespace {
-
-/// Tells versions apart, and puts them in the order of history.
-auto version_key(const db::TrendPoint& point) {
-  // A commit was first measured at another time in another series; other builds have no better name.
-  const bool is_commit = !point.commit.empty() && !point.dirty;
-  return std::tuple(point.ancestor_count, point.committed_utc, point.commit, point.dirty,
-                    is_commit ? std::string() : point.started_utc);
-}
-
-using Places = std::map<decltype(version_key(db::TrendPoint())), std::size_t>;
-
-/// The versions of all series and their places on the x axis.
-Places places_of(const std::vector<db::TrendSeries>& series) {
-  Places places;
-  for (const db::TrendSeries& one : series) {
-    for (const db::TrendPoint& point : one.points) places.emplace(version_key(point), 0);
-  }
-  std::size_t place = 0;
-  for (auto& entry : places) entry.second = place++;
-  return places;
-}
-
-}  // namespace
 
 Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series) {
   Chart chart;

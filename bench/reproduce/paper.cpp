@@ -294,15 +294,6 @@ Standing success_standing(const MeasuredCell& cell, double paper) {
   return cell.success() > paper ? Standing::kBetter : Standing::kDiffers;
 }
 
-}  // namespace
-
-ConfidenceInterval MeasuredCell::success_interval() const {
-  const double of = independent_runs.value_or(static_cast<double>(runs));
-  return wilson_interval(success() * of, of);
-}
-
-namespace {
-
 /// How the planner of the run is called; of several, the paper's.
 db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
   const auto table = db::run_sql(
@@ -323,6 +314,11 @@ db::Result<std::string> method_of(const std::filesystem::path& database, const s
 }
 
 }  // namespace
+
+ConfidenceInterval MeasuredCell::success_interval() const {
+  const double of = independent_runs.value_or(static_cast<double>(runs));
+  return wilson_interval(success() * of, of);
+}
 
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
                                                      const std::string& run) {

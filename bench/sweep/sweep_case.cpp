@@ -94,6 +94,10 @@ std::string planner_name(std::string_view planner, bool any_angle, std::int64_t 
                      planner.substr(std::min(planner.find('+'), planner.size())));
 }
 
+std::string place_name(const std::string& map_spec, const std::string& environment) {
+  return map_spec == "files" ? environment : map_spec;
+}
+
 bool is_complete_planner(std::string_view planner) {
   return planner.substr(0, planner.find('+')) == kComplete;
 }
@@ -105,9 +109,8 @@ std::string planner_name(const SweepCase& sweep_case) {
 
 std::string case_name(const SweepCase& sweep_case, bool with_seed) {
   const PlannerOptions& options = sweep_case.options;
-  const bool generated = sweep_case.map_spec != "files";
   return fmt::format("plan/{}/agents:{}/ssi:{}/reschedule:{}/order:{}/planner:{}",
-                     generated ? sweep_case.map_spec : sweep_case.environment, sweep_case.robots,
+                     place_name(sweep_case.map_spec, sweep_case.environment), sweep_case.robots,
                      format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
                      planner_name(sweep_case)) +
          (with_seed ? fmt::format("/seed:{}", options.seed) : "");
@@ -115,7 +118,8 @@ std::string case_name(const SweepCase& sweep_case, bool with_seed) {
 
 std::string short_case_name(const SweepCase& sweep_case) {
   const PlannerOptions& options = sweep_case.options;
-  return fmt::format("{}, {} robots, ssi {}, {}, {}, {}", sweep_case.environment, sweep_case.robots,
+  return fmt::format("{}, {} robots, ssi {}, {}, {}, {}",
+                     place_name(sweep_case.map_spec, sweep_case.environment), sweep_case.robots,
                      format_ssi(options.ssi_s), name(options.rescheduling), name(options.order),
                      planner_name(sweep_case));
 }

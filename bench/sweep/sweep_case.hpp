@@ -32,6 +32,10 @@ struct SweepCase {
 /// "any-angle-8+improve:300i,flowtime": improved. "any-angle-4+weight:1.05": by a weighted heuristic.
 /// "cmd:NAME": another program, which `planner` of the history is named after.
 std::string planner_name(std::string_view planner, bool any_angle, std::int64_t connectedness);
+
+/// Where robots are planned, as tables show it: a generated map by its specification, which tells its
+/// size as well, files by their folder.
+std::string place_name(const std::string& map_spec, const std::string& environment);
 std::string planner_name(const SweepCase& sweep_case);
 
 /// Rules as the history has them, after the method's name: "+turns", "+wait:0.5",

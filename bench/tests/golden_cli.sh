@@ -219,6 +219,7 @@ expect 0 plan --instance only_copy.xml -o /dev/null --svg /dev/null
 
 # Names that SQLite has a use of its own for are files.
 expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db :memory:
+says '^.1/1. empty:5x5, 1 robots' err
 expect 0 runs --db :memory:
 [ -f :memory: ] || complain "a history called :memory: is no file"
 

@@ -84,7 +84,7 @@ sqlite3 gate.db "
 expect 3 compare "${base:0:8}" "${head:0:8}" --db gate.db --junit compare.xml
 says '^lost: warehouse agents:16 seed:1 index:1, solved -> failed'
 says '^plan: warehouse agents:16 seed:1 index:0'
-says '^inconclusive: 1 instances? lost, 0 gained'
+says '^inconclusive: instances: 1 lost, 0 gained'
 says '<skipped' compare.xml
 expect 1 compare "$base" "$head" --db gate.db --exact --json
 says '"verdict": "regressed"'
