@@ -23,6 +23,7 @@ constexpr double kRightBare = 16;
 constexpr double kLegendGap = 34;
 constexpr double kCharWidth = 6.4;
 constexpr double kLegendLine = 18;
+constexpr double kLabelGap = 3;
 constexpr double kTitleMargin = 8;
 constexpr double kTitleSize = 13;
 /// Width of a bold letter, as a share of the size.
@@ -168,15 +169,19 @@ class Drawing {
     if (ticks.empty()) {
       for (const double tick : linear_ticks(x_)) ticks.emplace_back(tick, short_number(tick));
     }
-    for (const auto& [x, words] : ticks) {
-      rule(to_x(x), bottom, to_x(x), bottom + 4, "");
+    // From the right, because what is largest matters most; a label without room is left out.
+    double room_ends = chart_.width;
+    for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
+      const auto& [value, words] = *tick;
+      const double x = to_x(value);
+      rule(x, bottom, x, bottom + 4, "");
       // The outermost labels stay within the picture.
       const double half = kCharWidth / 2 * static_cast<double>(words.size());
-      const char* anchor = to_x(x) + half > chart_.width ? "end" : to_x(x) - half < 0 ? "start" : "middle";
-      label(anchor[0] == 'm'   ? to_x(x)
-            : anchor[0] == 'e' ? chart_.width - 2.0
-                               : 2.0,
-            bottom + 16, words, anchor, "");
+      const double middle = std::clamp(x, std::min(half, chart_.width / 2.0),
+                                       std::max(chart_.width - half, chart_.width / 2.0));
+      if (middle + half > room_ends) continue;
+      room_ends = middle - half - kLabelGap;
+      label(middle, bottom + 16, words, "middle", "");
     }
     rule(kLeft, bottom, right_, bottom, "");
     rule(kLeft, kTop, kLeft, bottom, "");

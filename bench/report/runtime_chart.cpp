@@ -61,6 +61,8 @@ Chart runtime_chart(const std::vector<db::RunReport>& runs, const db::CaseFilter
       lines[name_of(run, cell)][x].push_back(*cell.median_planning_time_s * kMillisecondsPerSecond);
     }
   }
+  const std::string omission = omission_note(lines.size());
+  if (lines.size() > kMostChartLines) lines.erase(std::next(lines.begin(), kMostChartLines), lines.end());
   std::array<bool, std::tuple_size_v<LineName>> varies{};
   for (const auto& [name, points] : lines) {
     for (std::size_t part = 0; part < name.size(); ++part) {
@@ -71,13 +73,11 @@ Chart runtime_chart(const std::vector<db::RunReport>& runs, const db::CaseFilter
   std::transform(varies.begin(), varies.end(), same.begin(), [](bool part) { return !part; });
 
   Chart chart;
-  chart.title = lines.empty() ? "planning time" : joined(lines.begin()->first, same);
+  chart.title = (lines.empty() ? "planning time" : joined(lines.begin()->first, same)) + omission;
   chart.x_label = "robots";
   chart.y_label = "median planning time [ms]";
   chart.log_y = true;
-  chart.title += omission_note(lines.size());
   for (const auto& [name, points] : lines) {
-    if (chart.lines.size() == kMostChartLines) break;
     ChartLine line;
     line.label = joined(name, varies);
     line.colour = static_cast<int>(chart.lines.size());

@@ -176,6 +176,7 @@ refused 'no value for :x' sql 'SELECT :x'
 refused 'parameter y, expected one that stands as :y' sql 'SELECT 1' --param y=1
 refused "expected NAME=VALUE" sql 'SELECT 1' --param y
 refused 'no query' sql
+refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.
 questions=0

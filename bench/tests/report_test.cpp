@@ -78,6 +78,17 @@ TEST(Charts, draw_nothing_and_single_points_and_constants) {
   }
 }
 
+TEST(Charts, label_only_the_ticks_that_have_room) {
+  Chart chart = sample_chart();
+  chart.lines[0].points = {{-9, 1}, {320, 2}};
+  chart.x_ticks = {{-9, "-9"}, {16, "16"}, {17, "17"}, {320, "320"}};
+  const std::string picture = svg(chart, SvgUse::kFile);
+  for (const char* shown : {">-9<", ">17<", ">320<"}) {
+    EXPECT_NE(picture.find(shown), std::string::npos) << shown;
+  }
+  EXPECT_EQ(picture.find(">16<"), std::string::npos);
+}
+
 TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   db::RunReport run;
   for (const double ssi_s : {0.0, kInfinity}) {
@@ -171,6 +182,9 @@ TEST(RuntimeChart, draws_as_many_lines_as_there_are_colours) {
   const Chart chart = runtime_chart({run}, {});
   EXPECT_EQ(chart.lines.size(), kMostChartLines);
   EXPECT_NE(chart.title.find("first 7 of 9"), std::string::npos) << chart.title;
+
+  run.cells.back().environment = "warehouse";
+  EXPECT_EQ(runtime_chart({run}, {}).lines[0].label, "ssi 0") << "what tells apart those that are drawn";
 }
 
 db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {

@@ -111,6 +111,7 @@ Error describe(const Handle& handle, int code, std::string_view doing) {
                           one_line(reason), doing)};
     case SQLITE_CONSTRAINT:
     case SQLITE_MISMATCH:
+    case SQLITE_TOOBIG:
       return {ErrorKind::kBadInput, fmt::format("{}: {} while {}", file, one_line(reason), doing)};
     default:
       return {ErrorKind::kInternal,

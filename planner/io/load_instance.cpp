@@ -60,7 +60,7 @@ Input<InstanceParts> parse_parts(std::string_view text, const std::string& file_
 }
 
 Input<InstanceParts> read_parts(const std::string& path) {
-  const Input<std::string> text = read_file(path);
+  const Input<std::string> text = read_text(path);
   if (!text) return Unexpected{text.error()};
   return parse_parts(*text, path);
 }

@@ -44,7 +44,7 @@ Input<SolutionDocument> parse_solution(std::string_view text, const std::string&
 }
 
 Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance) {
-  const Input<std::string> text = read_file(path);
+  const Input<std::string> text = read_text(path);
   if (!text) return Unexpected{text.error()};
   return parse_solution(*text, path, instance);
 }

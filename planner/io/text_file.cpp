@@ -69,6 +69,8 @@ std::optional<InputError> write_directly(const std::string& path, std::string_vi
 constexpr mode_t kNewFileMode = 0666;  // less what the user's umask takes away
 constexpr mode_t kPermissionBits = 07777;
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 }  // namespace
 
 Input<std::string> read_file(const std::string& path) {
@@ -101,6 +103,12 @@ Input<std::string> read_file(const std::string& path) {
     if (used == text.size()) text.resize(2 * used);
   }
   text.resize(used);
+  return text;
+}
+
+Input<std::string> read_text(const std::string& path) {
+  Input<std::string> text = read_file(path);
+  if (text && text->starts_with(kByteOrderMark)) text->erase(0, kByteOrderMark.size());
   return text;
 }
 

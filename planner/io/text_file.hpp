@@ -19,6 +19,9 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
 /// permission, larger than kMaxFileBytes.
 Input<std::string> read_file(const std::string& path);
 
+/// The same without the byte order mark that some editors put in front of UTF-8.
+Input<std::string> read_text(const std::string& path);
+
 /// Writes the whole text or nothing: into a temporary file beside `path` that then
 /// takes its place. Devices and pipes are written directly. The error's `what` says
 /// why it failed ("no space left on device").

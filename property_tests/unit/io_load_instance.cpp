@@ -165,6 +165,11 @@ TEST_F(IoLoadInstance, AScenarioBringsItsMap) {
   ASSERT_TRUE(map);
   write("notch.map", *map);
   EXPECT_EQ(error_of(just(lonely)), "no error");
+
+  // As some editors save them.
+  const std::string byte_order_mark = "\xef\xbb\xbf";
+  write("notch.map", byte_order_mark + *map);
+  EXPECT_EQ(error_of(just(write("marked.scen", byte_order_mark + row))), "no error");
 }
 
 TEST_F(IoLoadInstance, AnyFormatsGoTogether) {

@@ -44,6 +44,14 @@ TEST_F(IoTextFile, WhatIsWrittenIsRead) {
   EXPECT_EQ(files(), 1);
 }
 
+TEST_F(IoTextFile, TextBeginsBehindItsByteOrderMark) {
+  EXPECT_FALSE(write_file(path("a"), "\xef\xbb\xbfversion 1\n"));
+  EXPECT_EQ(*read_text(path("a")), "version 1\n");
+  EXPECT_EQ(read_file(path("a"))->size(), 13u);
+  EXPECT_FALSE(write_file(path("a"), "\xef\xbb"));
+  EXPECT_EQ(*read_text(path("a")), "\xef\xbb");
+}
+
 TEST_F(IoTextFile, LargeFilesAreReadWhole) {
   const std::string text(1'000'003, 'x');
   EXPECT_FALSE(write_file(path("a"), text));
