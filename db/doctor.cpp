@@ -104,7 +104,7 @@ class Examination {
   }
 
   Result<Done> schema() {
-    auto fresh = Connection::open(":memory:", sqlite::OpenMode::kReadWrite);
+    auto fresh = Connection::open_in_memory();
     if (!fresh) return Unexpected{fresh.error()};
     if (auto done = migrate(*fresh, migrations()); !done) return done;
     const auto expected = definitions(*fresh);

@@ -30,29 +30,33 @@ Connection::Connection(Connection&& other) noexcept = default;
 Connection& Connection::operator=(Connection&& other) noexcept = default;
 Connection::~Connection() = default;
 
-Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode mode) {
-  auto handle = std::make_unique<Handle>(path.string());
-  int flags = SQLITE_OPEN_NOMUTEX;
-  std::string target = handle->name;
-  // Names that SQLite takes for something else than a file of that name.
-  if (target.rfind("file:", 0) == 0 || target.rfind(':', 0) == 0) target = "./" + target;
-  switch (mode) {
-    case OpenMode::kReadWrite:
-      flags |= SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-      break;
-    case OpenMode::kReadOnly:
-      flags |= SQLITE_OPEN_READONLY;
-      break;
-    case OpenMode::kImmutable:
-      flags |= SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
-      target = immutable_uri(target);
-      break;
-  }
-  const int code = sqlite3_open_v2(target.c_str(), &handle->db, flags, nullptr);
+Result<Connection> Connection::open(const std::string& target, const std::string& name, int flags) {
+  auto handle = std::make_unique<Handle>(name);
+  const int code = sqlite3_open_v2(target.c_str(), &handle->db, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   if (code != SQLITE_OK) return Unexpected{describe(*handle, code, "opening it")};
   sqlite3_extended_result_codes(handle->db, 1);
   sqlite3_busy_handler(handle->db, wait_for_lock, handle.get());
   return Connection{std::move(handle)};
+}
+
+Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode mode) {
+  const std::string name = path.string();
+  // Names that SQLite takes for something else than a file of that name.
+  const bool special = name.rfind("file:", 0) == 0 || name.rfind(':', 0) == 0;
+  const std::string target = special ? "./" + name : name;
+  switch (mode) {
+    case OpenMode::kReadWrite:
+      return open(target, name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    case OpenMode::kReadOnly:
+      return open(target, name, SQLITE_OPEN_READONLY);
+    case OpenMode::kImmutable:
+      break;
+  }
+  return open(immutable_uri(target), name, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+}
+
+Result<Connection> Connection::open_in_memory() {
+  return open(":memory:", "a database in memory", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
 }
 
 Result<Done> Connection::execute(const std::string& sql, std::string_view doing) {

@@ -33,6 +33,8 @@ class Connection {
  public:
   /// Opens the file; nothing is read from it yet.
   static Result<Connection> open(const std::filesystem::path& path, OpenMode mode);
+  /// An empty database without a file.
+  static Result<Connection> open_in_memory();
 
   Connection(Connection&& other) noexcept;
   Connection& operator=(Connection&& other) noexcept;
@@ -58,6 +60,8 @@ class Connection {
 
  private:
   explicit Connection(std::unique_ptr<Handle> handle);
+  /// `target` as SQLite takes it, `name` for messages.
+  static Result<Connection> open(const std::string& target, const std::string& name, int flags);
 
   std::unique_ptr<Handle> handle_;
 };

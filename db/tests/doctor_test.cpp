@@ -44,6 +44,19 @@ TEST_F(Doctor, a_sound_history_has_no_finding) {
   EXPECT_GE(report.checks.size(), 8U);
 }
 
+TEST_F(Doctor, leaves_no_file_behind_and_heeds_none) {
+  record_version(file, {1, 1, 8});
+  const std::filesystem::path here = std::filesystem::current_path();
+  const std::filesystem::path empty = file.parent_path() / "empty";
+  std::filesystem::create_directory(empty);
+  std::filesystem::current_path(empty);
+  EXPECT_TRUE(look().sound());
+  EXPECT_TRUE(std::filesystem::is_empty(empty));
+  std::ofstream{":memory:"} << "not a database";
+  EXPECT_TRUE(look().sound());
+  std::filesystem::current_path(here);
+}
+
 TEST_F(Doctor, what_the_recorder_summarises_is_what_the_results_say) {
   auto recorder = must(RunRecorder::begin(must(Database::open(file)), test::sample_run()));
   for (int count = 0; count < 10; ++count) {
@@ -64,7 +77,9 @@ TEST_F(Doctor, what_the_recorder_summarises_is_what_the_results_say) {
 
 TEST_F(Doctor, summaries_are_compared_with_results_and_made_anew) {
   record_version(file, {1, 1, 8});
-  change("UPDATE cell_summary SET mean_flowtime_s = mean_flowtime_s + 1e-9");
+  change("UPDATE cell_summary SET mean_flowtime_s = mean_flowtime_s * (1 + 1e-15)");
+  EXPECT_TRUE(look().sound()) << "sums of another release of SQLite";
+  change("UPDATE cell_summary SET mean_flowtime_s = mean_flowtime_s * (1 + 1e-9)");
   EXPECT_TRUE(look({true, false}).sound()) << "the quick look does not read results";
   EXPECT_EQ(finding().check, "summaries");
   EXPECT_TRUE(finding(kFix).fixed);
