@@ -187,9 +187,9 @@ Result<StoredFinding> find_finding(Database& database, std::int64_t id) {
   const auto row = select->bind(id).step();
   if (!row) return Unexpected{row.error()};
   if (row.value()) return read_finding(*select);
-  return Unexpected{
-      Error{ErrorKind::kNotFound, fmt::format("{}: no finding {}, expected one that `sipplab findings` shows",
-                                              database.path().string(), id)}};
+  return Unexpected{Error{ErrorKind::kNotFound,
+                          fmt::format("{}: no finding {}, expected one that `sipplab findings list` shows",
+                                      database.path().string(), id)}};
 }
 
 Result<Table> finding_events(Database& database, std::int64_t id) {

@@ -80,8 +80,10 @@ Result<std::int64_t> record_fuzz_run(Database& database, const FuzzOrigin& origi
 
 Result<bool> is_fuzzed_clean(Database& database, const std::string& target, const std::string& target_hash) {
   auto select = Statement::prepare(database.connection(),
-                                   "SELECT 1 FROM fuzz_run WHERE target = ? AND target_hash = ? "
-                                   "AND status = 'clean' AND mode <> 'smoke' LIMIT 1",
+                                   "SELECT 1 FROM fuzz_run WHERE target = ?1 AND target_hash = ?2 "
+                                   "AND status = 'clean' AND mode <> 'smoke' AND NOT EXISTS "
+                                   "(SELECT 1 FROM fuzz_run WHERE target = ?1 AND target_hash = ?2 "
+                                   "AND status = 'findings') LIMIT 1",
                                    "reading fuzzing runs");
   if (!select) return Unexpected{select.error()};
   return select->bind(target, target_hash).step();

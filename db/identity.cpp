@@ -31,7 +31,8 @@ std::string boot_id() {
 
 // Field 22 of /proc/PID/stat, in clock ticks since boot: two processes that had the
 // same number one after the other differ in it. Field 2 is a name that may contain
-// spaces and parentheses, so fields are counted from its end.
+// spaces and parentheses, so fields are counted from its end. Field 3 is the state: one that
+// has ended and waits for its parent to ask how (Z), or is being removed (X), starts nothing more.
 std::string start_time(const std::string& pid) {
   const std::string stat = read_all("/proc/" + pid + "/stat");
   const std::size_t name_end = stat.rfind(')');
@@ -39,7 +40,10 @@ std::string start_time(const std::string& pid) {
   constexpr int kFieldsFromName = 20;
   std::istringstream fields{stat.substr(name_end + 1)};
   std::string field;
-  for (int i = 0; i < kFieldsFromName; ++i) fields >> field;
+  for (int i = 0; i < kFieldsFromName; ++i) {
+    fields >> field;
+    if (i == 0 && (field == "Z" || field == "X")) return {};
+  }
   return fields ? field : std::string{};
 }
 

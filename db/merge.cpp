@@ -237,11 +237,28 @@ class Merge {
         "included_utc = s.included_utc FROM shard.run AS s WHERE s.uuid = run.uuid AND "
         "max(ifnull(s.excluded_utc, ''), ifnull(s.included_utc, '')) > "
         "max(ifnull(run.excluded_utc, ''), ifnull(run.included_utc, ''))",
-        "UPDATE main.finding SET state = s.state, last_utc = s.last_utc, "
-        "last_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.last_commit_id), "
-        "fixed_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.fixed_commit_id) "
+        "UPDATE main.finding SET last_utc = s.last_utc, "
+        "last_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.last_commit_id) "
         "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
         "AND s.last_utc > finding.last_utc",
+        "UPDATE main.finding SET minimal = s.minimal, robots = s.robots, cells = s.cells "
+        "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
+        "AND length(s.minimal) < length(finding.minimal)",
+        // Not the sum of both: merging a file twice is to change nothing.
+        "UPDATE main.finding SET times_found = s.times_found "
+        "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
+        "AND s.times_found > finding.times_found",
+        // The state follows from the events of both lives and from when it was last seen to break.
+        "UPDATE main.finding SET "
+        "state = CASE WHEN life.fixed_utc IS NULL THEN iif(life.reproduced, 'reproduced', 'new') "
+        "WHEN finding.last_utc > life.fixed_utc THEN 'regressed' ELSE 'fixed' END, "
+        "fixed_commit_id = CASE WHEN finding.last_utc <= life.fixed_utc THEN (SELECT commit_id "
+        "FROM main.finding_event WHERE finding_id = finding.id AND event = 'fixed' "
+        "AND happened_utc = life.fixed_utc) END "
+        "FROM (SELECT finding_id, max(iif(event = 'fixed', happened_utc, NULL)) AS fixed_utc, "
+        "max(event = 'reproduced') AS reproduced FROM main.finding_event GROUP BY finding_id) AS life "
+        "WHERE life.finding_id = finding.id AND EXISTS (SELECT 1 FROM shard.finding AS s "
+        "WHERE s.target = finding.target AND s.signature = finding.signature)",
     };
     for (const char* sql : kUpdates) {
       if (auto done = connection_.execute(sql, kDoing); !done) return done;

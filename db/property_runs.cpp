@@ -88,7 +88,7 @@ Result<Table> list_property_runs(Database& database, const PropertyFilter& filte
   auto select = Statement::prepare(
       database.connection(),
       fmt::format("SELECT id, started_utc, room, title, mutant, status, cases, discards, shrinks, "
-                  "wall_time_s, seed, case_robots, case_cells FROM {} "
+                  "wall_time_s, printf('%llu', seed), case_robots, case_cells FROM {} "
                   "WHERE (?1 IS NULL OR room = ?1) AND (NOT ?2 OR status IN ('failed', 'crashed')) ORDER BY "
                   "{} LIMIT ?3",
                   filter.every_run ? "v_property_runs" : "v_property_latest",
@@ -108,6 +108,10 @@ Result<Table> list_property_runs(Database& database, const PropertyFilter& filte
     std::vector<Value> values{select->integer(0)};
     for (int column = 1; column <= 5; ++column) values.emplace_back(select->text(column));
     for (int column = 6; column <= 12; ++column) {
+      if (table.columns[static_cast<std::size_t>(column)] == "seed") {
+        values.emplace_back(select->text(column));  // 64 bits without a sign, as RC_PARAMS takes it
+        continue;
+      }
       values.push_back(
           value_of(*select, column, table.columns[static_cast<std::size_t>(column)] == "wall_time_s"));
     }

@@ -63,7 +63,7 @@ struct PropertyFilter {
   std::optional<std::string> room;
   bool failed = false;     ///< only those that failed or crashed
   bool every_run = false;  ///< else the newest of each property, planted bugs left out
-  std::size_t limit = 0;   ///< newest runs; 0 for all
+  std::size_t limit = 0;   ///< rows; 0 for all
 };
 
 /// id, started_utc, room, title, mutant, status, cases, discards, shrinks, wall_time_s,

@@ -217,6 +217,14 @@ Result<Done> exclude_run(Database& database, std::string_view run, const std::st
 }
 
 Result<Done> include_run(Database& database, std::string_view run) {
+  const auto report = show_run(database, run);
+  if (!report) return Unexpected{report.error()};
+  if (!report->run.excluded_reason) {
+    return Unexpected{
+        Error{ErrorKind::kBadInput,
+              fmt::format("{}: run {} is not excluded, expected one that is (`sipplab runs --all`)",
+                          database.path().string(), report->run.uuid)}};
+  }
   return set_exclusion(database, run, std::nullopt);
 }
 

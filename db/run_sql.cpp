@@ -213,6 +213,10 @@ Result<Done> bind_parameters(Database& database, sqlite3_stmt* statement, const 
     } else if (found != given.end()) {
       bind_text_or_number(statement, index, found->second);
     } else {
+      if (raw_name == nullptr || raw_name[0] != ':') {
+        return Unexpected{bad_query(file, fmt::format("parameter {}, expected one that begins with a colon",
+                                                      raw_name == nullptr ? "?" : raw_name))};
+      }
       return Unexpected{bad_query(file, fmt::format("no value for :{0}, expected --param {0}=VALUE", name))};
     }
   }

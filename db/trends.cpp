@@ -79,18 +79,22 @@ std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
   const auto version = [](const Sample& sample) {
     return std::tie(sample.commit, sample.dirty, sample.binary);
   };
+  // A build may have run again after another one: its runs are one version, where it came first.
+  std::vector<std::vector<const Sample*>> versions;
+  std::map<decltype(version(samples[0])), std::size_t> place_of;
+  for (const Sample& sample : samples) {
+    const auto [known, is_new] = place_of.emplace(version(sample), versions.size());
+    if (is_new) versions.emplace_back();
+    versions[known->second].push_back(&sample);
+  }
   std::vector<TrendPoint> points;
-  for (std::size_t begin = 0; begin < samples.size();) {
-    const Sample& first = samples[begin];
+  for (const std::vector<const Sample*>& runs : versions) {
     std::vector<double> values;
-    std::size_t end = begin;
-    while (end < samples.size() && version(samples[end]) == version(first)) {
-      values.push_back(samples[end++].value);
-    }
+    for (const Sample* sample : runs) values.push_back(sample->value);
+    const Sample& first = *runs.front();
     points.push_back({first.commit, first.dirty, first.subject, first.committed_utc, first.started_utc,
                       first.ancestor_count, static_cast<std::int64_t>(values.size()),
                       statistics::median(values).value_or(0)});
-    begin = end;
   }
   return points;
 }

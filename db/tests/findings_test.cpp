@@ -3,6 +3,7 @@
 #include "db/findings.hpp"
 
 #include "db/fuzz_runs.hpp"
+#include "db/merge.hpp"
 #include "db/tests/support.hpp"
 
 namespace sipplab::db {
@@ -82,7 +83,7 @@ TEST_F(Findings, a_run_is_written_with_snapshots_and_counts) {
 }
 
 TEST_F(Findings, a_program_is_known_once_it_ran_clean_for_a_time) {
-  must(record_fuzz_run(database, origin(), run_of("findings")));
+  must(record_fuzz_run(database, origin(), run_of("findings", "another program")));
   EXPECT_FALSE(must(is_fuzzed_clean(database, "reads_back", "0123456789abcdef")));
   FuzzRun smoke = run_of("clean");
   smoke.mode = "smoke";
@@ -91,6 +92,8 @@ TEST_F(Findings, a_program_is_known_once_it_ran_clean_for_a_time) {
   must(record_fuzz_run(database, origin(), run_of("clean")));
   EXPECT_TRUE(must(is_fuzzed_clean(database, "reads_back", "0123456789abcdef")));
   EXPECT_FALSE(must(is_fuzzed_clean(database, "reads_back", "fedcba9876543210")));
+  must(record_fuzz_run(database, origin(), run_of("findings")));
+  EXPECT_FALSE(must(is_fuzzed_clean(database, "reads_back", "0123456789abcdef")));
 }
 
 TEST_F(Findings, what_is_written_is_what_is_read) {
@@ -134,6 +137,40 @@ TEST_F(Findings, a_finding_is_fixed_when_it_holds_and_regressed_when_it_breaks_a
   EXPECT_FALSE(regressed.fixed_commit);
   EXPECT_EQ(replayed(id, true).state, "regressed");
   EXPECT_EQ(events(), "found reproduced fixed regressed");
+  test::expect_sound(file);
+}
+
+TEST_F(Findings, lives_in_two_files_merge_into_one) {
+  const std::filesystem::path shard = folder / "shard.db";
+  auto other = must(Database::open(shard));
+  const auto at = [](int month) { return "2026-0" + std::to_string(month) + "-01T00:00:00.000Z"; };
+  const auto see = [&at](Database& where, const char* minimal, int month) {
+    return must(record_finding(where, origin(), broken(minimal), std::nullopt, at(month))).id;
+  };
+  const auto replay = [&at](Database& where, std::int64_t id, bool breaks, int month) {
+    must(record_replay(where, origin(), id, breaks, at(month)));
+  };
+  const auto merged = [&] {
+    must(merge_into(database, shard));
+    must(merge_into(database, shard));  // the second time changes nothing
+    const StoredFinding finding = must(find_finding(database, 1));
+    return finding.state + (finding.fixed_commit ? " by a commit" : "");
+  };
+  see(database, "a longer input", 1);
+  see(other, "short", 2);
+  see(other, "short", 3);
+  EXPECT_EQ(merged(), "reproduced");
+  EXPECT_EQ(must(find_finding(database, 1)).finding.minimal, "short");
+  EXPECT_EQ(must(find_finding(database, 1)).times_found, 2);
+  EXPECT_EQ(must(find_finding(database, 1)).last_utc, at(3));
+
+  replay(other, 1, false, 5);
+  EXPECT_EQ(merged(), "fixed by a commit") << "it was last seen to break before";
+  replay(database, 1, true, 6);
+  EXPECT_EQ(merged(), "regressed");
+  replay(database, 1, false, 8);
+  replay(other, 1, true, 7);
+  EXPECT_EQ(merged(), "fixed by a commit") << "what the other file saw was earlier";
   test::expect_sound(file);
 }
 

@@ -224,6 +224,24 @@ TEST(Identity, processes_and_uuids) {
   std::string restarted = this_process();
   restarted.back() = restarted.back() == '1' ? '2' : '1';
   EXPECT_FALSE(is_alive(restarted)) << "the same number at another time is another process";
+
+  // One that has ended and that nobody has asked how: as where the first process collects none.
+  std::array<int, 2> channel{};
+  ASSERT_EQ(pipe(channel.data()), 0);
+  const pid_t child = start([&channel] {
+    const std::string process = this_process();
+    return write(channel[1], process.data(), process.size()) > 0 ? 0 : 1;
+  });
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  std::array<char, 256> process{};
+  const ssize_t length = read(channel[0], process.data(), process.size());
+  ASSERT_GT(length, 0);
+  EXPECT_FALSE(is_alive(std::string_view{process.data(), static_cast<std::size_t>(length)}));
+  EXPECT_EQ(exit_code(child), 0);
+  close(channel[0]);
+  close(channel[1]);
+
   const std::string uuid = new_uuid();
   EXPECT_EQ(uuid.size(), 36U);
   EXPECT_EQ(uuid[14], '4');

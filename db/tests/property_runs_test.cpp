@@ -61,6 +61,9 @@ TEST_F(PropertyRuns, what_is_written_is_what_is_read) {
   const PropertyRun run = failed_run(1);
   EXPECT_EQ(record({run}, "gap_closed").added, 1U);
   auto database = must(Database::open_read_only(file));
+  EXPECT_EQ(std::get<std::string>(list({std::nullopt, false, true, 0}).rows.at(0)[10]),
+            std::to_string(run.seed))
+      << "without a sign";
   const PropertyReport report = must(show_property_run(database, 1));
   const PropertyRun& read = report.run;
   EXPECT_EQ(read.uuid, run.uuid);

@@ -49,6 +49,23 @@ TEST_F(Trends, runs_of_one_commit_are_one_point_and_builds_with_changes_another)
   EXPECT_DOUBLE_EQ(series[0].points[1].value, 7000);
 }
 
+TEST_F(Trends, a_build_with_changes_that_ran_again_is_still_one_version) {
+  for (const double factor : {1.0, 5.0, 3.0}) {
+    const std::string uuid = record_version(file, {1, factor, 8, true});
+    if (factor != 5) continue;
+    // Between two runs of the first build, one of another.
+    test::ask(file,
+              "INSERT INTO build SELECT (SELECT max(id) + 1 FROM build), compiler, compiler_version, flags, "
+              "build_type, assertions, sanitizers, 'another', dirty FROM build LIMIT 1 RETURNING 1");
+    test::ask(file, "UPDATE run SET build_id = (SELECT max(id) FROM build) WHERE uuid = '" + uuid +
+                        "' RETURNING 1");
+  }
+  const auto series = trend("flowtime");
+  ASSERT_EQ(series[0].points.size(), 2U);
+  EXPECT_EQ(series[0].points[0].runs, 2);
+  EXPECT_DOUBLE_EQ(series[0].points[0].value, 2000);
+}
+
 TEST_F(Trends, a_commit_of_a_shallow_clone_is_placed_by_its_date) {
   for (const int number : {1, 2, 3, 4}) record_version(file, {number, 1, 8});
   test::ask(file,
