@@ -235,7 +235,6 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
     if (presence->enter_s >= leave_s) break;
     if (presence->exit_s <= enter_s || !is_news(presence->disk)) continue;
     const MovingDisk& disk = disks_[presence->disk];
-    ++disks_examined_;
     if (time_margin_s_ == 0 && !may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
     const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
     if (later_s > departure_s) {
@@ -246,7 +245,6 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
   for (const Presence& rest : timeline.resting) {
     if (rest.enter_s >= leave_s || !is_news(rest.disk)) continue;
     const MovingDisk& disk = disks_[rest.disk];
-    ++disks_examined_;
     if (passes_by(move.way, disk.from, radius_cells + disk.radius)) continue;
     const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
     if (later_s > departure_s) {

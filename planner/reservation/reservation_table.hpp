@@ -72,9 +72,6 @@ class ReservationTable {
   /// intervals of unsafe departures, whatever the order in which disks were added.
   double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
-  /// Disks looked at closely by earliest_departure since construction: a count of work.
-  std::uint64_t disks_examined() const { return disks_examined_; }
-
  private:
   /// A disk's stay near one cell.
   struct Presence {
@@ -141,7 +138,6 @@ class ReservationTable {
   std::vector<Keepout> keepouts_;
   std::vector<std::size_t> used_cells_;  ///< timelines that have held a disk since clear()
   std::vector<CellVisit> visits_;        ///< scratch, with room for the longest way
-  std::uint64_t disks_examined_ = 0;
 };
 
 }  // namespace sipplab

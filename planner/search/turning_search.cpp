@@ -73,7 +73,10 @@ Expected<Trajectory, PlanFailure> TurningSearch::plan(AgentIndex agent, Reservat
 
   SearchBudget budget(limits);
   while (!open_.empty()) {
-    const NodeId id = open_.pop_min().node;
+    const OpenList::Entry entry = open_.pop_min();
+    // No entry has a smaller f, and nobody arrives before f / weight.
+    if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
+    const NodeId id = entry.node;
     if (states_[id].dominated) continue;
     if (is_goal(states_[id])) return reconstruct(id);
     if (const auto failure = budget.take_expansion()) return Unexpected{*failure};
