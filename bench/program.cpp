@@ -107,7 +107,13 @@ ProgramRun run_program(const std::vector<std::string>& command, const ProgramOpt
   if (!options.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  if (options.own_group) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // group 0: its own
+  // Ignored signals stay so in a program that is started, and its pipelines count on this one.
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  const int group = options.own_group ? POSIX_SPAWN_SETPGROUP : 0;  // group 0: its own
+  posix_spawnattr_setflags(&attributes, static_cast<short>(POSIX_SPAWN_SETSIGDEF | group));
   const Clock::time_point begin = Clock::now();
   pid_t child = 0;
   const int failed = posix_spawn(&child, arguments[0].c_str(), &actions, &attributes,

@@ -30,7 +30,9 @@ struct ReportArguments {
 int run_report(const ReportArguments& arguments) {
   const auto data = bench::read_report(db::database_path(arguments.database), arguments.run, arguments.base);
   if (!data) return fail(data.error());
-  const std::vector<bench::DensityChart> charts = bench::density_charts(data->run, data->base);
+  const bool comparable = !data->cells.rows.empty();
+  const std::vector<bench::DensityChart> charts =
+      bench::density_charts(data->run, comparable ? data->base : std::nullopt);
   std::vector<std::pair<std::string, std::string>> files{{"index.html", bench::report_page(*data, charts)}};
   for (const bench::DensityChart& density : charts) {
     files.emplace_back(density.name + ".svg", bench::svg(density.chart, bench::SvgUse::kFile));

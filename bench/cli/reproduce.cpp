@@ -29,6 +29,7 @@ struct ReproduceArguments {
   bool quick = false;
   std::optional<std::string> run;  ///< recorded before; nothing is planned
   std::optional<std::string> folder;
+  bool json = false;
 };
 
 std::string source_of(const db::RunSummary& run) {
@@ -77,7 +78,8 @@ int judge(const ReproduceArguments& arguments, const fs::path& database, const s
                             *uuid, method, bench::kPaperMethod));
   }
   const std::string source = source_of(report->run);
-  print(source + "\n\n" + bench::reproduction_text(*cells));
+  print(arguments.json ? bench::reproduction_json(*cells, *uuid).dump(2) + "\n"
+                       : source + "\n\n" + bench::reproduction_text(*cells));
   if (arguments.folder) {
     if (const int code = write_page(*arguments.folder, *cells, source); code != kSuccess) return code;
     diagnose("written: " + (fs::path(*arguments.folder) / "index.html").string());
@@ -139,6 +141,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
   command.add_option("-o,--output", arguments.folder, "write index.html, figure1.svg and table1.svg there")
       ->type_name("DIR");
   add_database_flag(command, sweep.database);
+  command.add_flag("--json", arguments.json, "print one JSON document");
 }
 
 }  // namespace

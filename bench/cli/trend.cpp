@@ -53,10 +53,11 @@ int run_trend(const TrendArguments& arguments) {
   auto series = db::read_trend(*database, query);
   if (!series) return fail(series.error());
   if (series->empty()) {
-    return fail(kNothingComparable,
-                database->path().string() + ": no " + arguments.metric +
-                    " of such a case, suite, branch and machine; `sipplab sql 'SELECT DISTINCT "
-                    "case_id, environment, robots, ssi_s FROM v_run_cells'` lists cases");
+    const char* expected = query.metric->of_case
+                               ? " of such a case, suite, branch and machine; `sipplab sql 'SELECT DISTINCT "
+                                 "case_id, environment, robots, ssi_s FROM v_run_cells'` lists cases"
+                               : " of any commit, expected runs that were recorded in a git checkout";
+    return fail(kNothingComparable, database->path().string() + ": no " + arguments.metric + expected);
   }
   db::mark_changes(*series, *query.metric, arguments.rules);
   if (arguments.svg) {

@@ -227,15 +227,21 @@ std::string_view name(CompareVerdict verdict) {
 
 CompareResult compare(const std::vector<db::PairedCell>& cells, const CompareOptions& options) {
   CompareResult result;
+  // An instance in several cells, such as with several intervals, is one observation of all of them.
+  std::map<std::string, std::ptrdiff_t> balance;
   for (const db::PairedCell& cell : cells) {
     if (cell.results.empty()) continue;
     CellComparison comparison = compare_cell(cell);
     result.compared += cell.results.size();
     result.differing += comparison.differences.size();
     result.cut_short += comparison.cut_short;
-    result.lost += comparison.lost.size();
-    result.gained += comparison.gained.size();
+    for (const std::size_t i : comparison.lost) --balance[cell.results[i].instance_hash];
+    for (const std::size_t i : comparison.gained) ++balance[cell.results[i].instance_hash];
     result.cells.push_back(std::move(comparison));
+  }
+  for (const auto& [instance, cells_gained] : balance) {
+    result.lost += cells_gained < 0 ? 1U : 0U;
+    result.gained += cells_gained > 0 ? 1U : 0U;
   }
   adjust(result);
   result.reason = regression(result, options);

@@ -68,7 +68,7 @@ struct CompareResult {
   std::size_t compared = 0;   ///< plannings
   std::size_t differing = 0;  ///< plannings with a difference
   std::size_t cut_short = 0;  ///< plannings of which only the status was compared
-  std::size_t lost = 0;       ///< instances, in each cell that has them
+  std::size_t lost = 0;       ///< instances, lost in more cells than gained
   std::size_t gained = 0;
   double success_p = 1;  ///< over all cells together
   CompareVerdict verdict = CompareVerdict::kSame;

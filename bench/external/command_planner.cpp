@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -123,6 +124,17 @@ bool is_plain_path(std::string_view word) {
            return std::isalnum(c) != 0 ||
                   std::string_view("/._-+@%,:").find(static_cast<char>(c)) != std::string_view::npos;
          });
+}
+
+/// The program's file name; of a script that an interpreter is to run, the script's.
+std::string name_of(const std::string& command) {
+  std::istringstream words(command);
+  std::string program;
+  std::string script;
+  words >> program >> script;
+  std::error_code ignored;
+  const bool is_script = is_plain_path(script) && fs::is_regular_file(script, ignored);
+  return fs::path(is_script ? script : program).filename().string();
 }
 
 /// The command with absolute paths for words that name files from here, such as ./planner or script.py:
@@ -257,8 +269,8 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
   if (program.find('/') != std::string::npos && is_plain_path(program) && !fs::exists(program, ignored)) {
     return Unexpected{program + ": no such file, expected a program"};
   }
+  spec.name = name.empty() ? name_of(spec.command) : name;
   spec.command = with_absolute_paths(spec.command);
-  spec.name = name.empty() ? fs::path(program).filename().string() : name;
   return spec;
 }
 
@@ -268,13 +280,15 @@ Expected<CommandPlanner, std::string> CommandPlanner::make(CommandPlannerSpec sp
   return CommandPlanner(std::move(spec), std::move(*folder));
 }
 
-db::ResultRow CommandPlanner::run(const Instance& instance, const PlannerOptions& options) const {
+Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instance,
+                                                         const PlannerOptions& options) const {
   constexpr double kNanosecondsPerSecond = 1e9;
   const fs::path& folder = folder_.path();
   const fs::path log = folder / kLog;
   db::ResultRow row;
-  row.message = write_files(folder, instance, options);
-  if (!row.message.empty()) return row;
+  if (std::string error = write_files(folder, instance, options); !error.empty()) {
+    return Unexpected{std::move(error)};
+  }
   const ProgramRun run = run_program({"/bin/sh", "-c", shell_line(spec_, folder, instance, options)},
                                      {.log = log,
                                       .limit_s = limit_of(options) + kGraceS,
@@ -284,9 +298,8 @@ db::ResultRow CommandPlanner::run(const Instance& instance, const PlannerOptions
                                       .give_up = [] { return interrupted_by() != 0; }});
   row.planning_time_ns = std::llround(run.wall_time_s * kNanosecondsPerSecond);
   if (run.peak_memory_bytes > 0) row.peak_memory_bytes = run.peak_memory_bytes;
-  if (!run.started) {
-    row.message = "/bin/sh cannot be started";
-  } else if (run.timed_out) {
+  if (!run.started) return Unexpected{std::string("/bin/sh cannot be started")};
+  if (run.timed_out) {
     row.status = db::ResultStatus::kLimit;
     row.limit = "time";
     row.message = fmt::format("killed after {} s", format_real(limit_of(options) + kGraceS));

@@ -35,8 +35,9 @@ struct CommandPlannerSpec {
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
 };
 
-/// From "cmd:COMMAND". Named after its program unless `name` says otherwise. Words of it that name files
-/// become absolute paths, since it will run elsewhere. Errors: one line.
+/// From "cmd:COMMAND". Named after its program, or the script that its program runs, unless `name` says
+/// otherwise. Words of it that name files become absolute paths, since it will run elsewhere. Errors: one
+/// line.
 Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::string& text,
                                                                 const std::string& name);
 
@@ -51,8 +52,8 @@ class CommandPlanner {
   /// validator accepts, `invalid` one that it rejects or that cannot be read, `limit` a program
   /// that was ended for its time, `failed` everything else. Wall-clock time is that of the
   /// program from its start to its end. Tries and expansions are what the solution states.
-  /// Start-safe intervals are not asked of it.
-  db::ResultRow run(const Instance& instance, const PlannerOptions& options) const;
+  /// Plans are not checked for start-safe intervals. Errors: one line, where nothing was run at all.
+  Expected<db::ResultRow, std::string> run(const Instance& instance, const PlannerOptions& options) const;
 
  private:
   CommandPlanner(CommandPlannerSpec spec, TemporaryFolder folder)

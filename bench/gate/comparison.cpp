@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "db/identity.hpp"
@@ -89,7 +90,7 @@ class Comparison {
       result_.lost += base_solved && !head_solved ? 1U : 0U;
       result_.gained += head_solved && !base_solved ? 1U : 0U;
     }
-    result_.differing = result_.differences.size();
+    result_.differing = differing_jobs(result_.differences);
     return "";
   }
 
@@ -120,10 +121,10 @@ class Comparison {
     repetition_noted_ = true;
     const char* again = "planned again: another result";
     const char* once = "repeatable so far";
-    ++result_.differing;
     result_.differences.push_back({*times.unrepeatable_job,
                                    {DifferenceKind::kRepetition, times.unrepeatable_head ? once : again,
                                     times.unrepeatable_head ? again : once}});
+    result_.differing = differing_jobs(result_.differences);
   }
 
   std::string first_look() {
@@ -258,6 +259,12 @@ std::vector<double> slowdowns(const std::vector<double>& log_ratios) {
 }
 
 }  // namespace
+
+std::size_t differing_jobs(const std::vector<GateDifference>& differences) {
+  std::set<std::size_t> jobs;
+  for (const GateDifference& difference : differences) jobs.insert(difference.job);
+  return jobs.size();
+}
 
 Expected<GateResult, std::string> compare_builds(const GateRequest& request, const GateCases& cases,
                                                  const std::vector<db::GateNoise>& noise,

@@ -66,6 +66,9 @@ struct GateResult {
   std::string reason;  ///< one line
 };
 
+/// Jobs in which the builds differ, each counted once.
+std::size_t differing_jobs(const std::vector<GateDifference>& differences);
+
 /// Called with one line whenever something new is under way.
 using GateProgress = std::function<void(const std::string&)>;
 

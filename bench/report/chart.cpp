@@ -209,11 +209,15 @@ class Drawing {
     text_ += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n", path,
                          colour, line.dashed ? " stroke-dasharray=\"6 4\"" : "");
     if (line.points.size() > kMostDots) return;
+    // A ring can be seen around a dot in the same place.
+    const std::string dot =
+        line.dashed ? fmt::format("r=\"4.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", colour)
+                    : fmt::format("r=\"2.5\" fill=\"{}\"", colour);
+    const std::string name = line.label.empty() ? "" : xml_escaped(line.label) + ": ";
     for (const auto& [x, y] : line.points) {
       if (chart_.log_y && y <= 0) continue;
-      text_ += fmt::format(
-          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"><title>{}: {}</title></circle>\n",
-          to_x(x), to_y(y), colour, xml_escaped(line.label), short_number(y));
+      text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" {}><title>{}{}</title></circle>\n", to_x(x),
+                           to_y(y), dot, name, short_number(y));
     }
   }
 

@@ -77,8 +77,7 @@ struct RatioOfSums {
 
 /// Half the width of a 95 % interval.
 double error_of(const RatioOfSums& ratio) {
-  constexpr std::int64_t kFewest = 5;  // of fewer a variance says next to nothing
-  if (ratio.instances < kFewest) return std::numeric_limits<double>::infinity();
+  if (ratio.instances < kFewestInstances) return std::numeric_limits<double>::infinity();
   return t_quantile(static_cast<double>(ratio.instances - 1)) * std::sqrt(ratio.variance());
 }
 
@@ -342,6 +341,7 @@ db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path
     const auto runs = static_cast<double>(cell.runs);
     const auto solved = static_cast<double>(cell.solved);
     const std::int64_t instances = std::get<std::int64_t>(row[10]);
+    cell.instances = instances;
     const double solved_squares = real(row[13]);
     cell.independent_runs =
         independent_runs({instances, solved, runs, solved_squares, real(row[12]), real(row[11])});
@@ -412,7 +412,11 @@ std::vector<TableLine> compare_with_table(const std::vector<MeasuredCell>& cells
 }
 
 std::vector<Claim> check_claims(const std::vector<MeasuredCell>& measured) {
-  const Cells cells(measured);
+  std::vector<MeasuredCell> enough;
+  std::copy_if(measured.begin(), measured.end(), std::back_inserter(enough), [](const MeasuredCell& cell) {
+    return cell.instances.value_or(cell.runs) >= kFewestInstances;
+  });
+  const Cells cells(enough);
   return {over_80_percent(cells),     none_without(cells),
           rises_with_interval(cells), infinity_is_worst(cells),
           falls_at_once(cells),       solves_where_random_fails(cells),

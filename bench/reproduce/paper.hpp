@@ -38,11 +38,15 @@ struct MeasuredCell {
   /// of them are between one and ten. None: all runs are independent.
   std::optional<double> independent_runs = {};
   std::string method = std::string(kPaperMethod);  ///< the planner's name in tables
+  std::optional<std::int64_t> instances = {};      ///< that were planned. None: another one in each run
 
   double success() const { return runs == 0 ? 0 : static_cast<double>(solved) / static_cast<double>(runs); }
   /// 95 %, Wilson's.
   ConfidenceInterval success_interval() const;
 };
+
+/// Of fewer instances a variance says next to nothing: no cost is judged, and no claim by them.
+inline constexpr std::int64_t kFewestInstances = 5;
 
 /// The cells of a run, by environment, re-scheduling, start-safe interval and robots. Other maps than
 /// the paper's are left out. Of a run with several planners, weights or neighbourhoods: those of any-angle

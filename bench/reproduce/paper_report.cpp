@@ -115,8 +115,8 @@ std::string html_table(const Words& words) {
 constexpr const char* kLegend =
     "In brackets: the paper. Success with its 95 % interval, makespan and flowtime over solved runs with "
     "that of "
-    "their mean; seeds of one instance go together in both. Costs of fewer than five instances are not "
-    "judged. "
+    "their mean; seeds of one instance go together in both. Costs and claims of fewer than five instances "
+    "are not judged. "
     "Seconds are of another machine there and judge nothing.";
 
 }  // namespace
@@ -129,6 +129,57 @@ std::string reproduction_text(const std::vector<MeasuredCell>& cells) {
   return table("Figure 1: share solved, empty map, no re-scheduling", figure_words(cells)) +
          table("Table 1: warehouse, start-safe interval 5, shortest first", table_words(cells)) + kLegend +
          "\n\n" + table("What the paper says", claim_words(cells));
+}
+
+nlohmann::ordered_json reproduction_json(const std::vector<MeasuredCell>& cells, const std::string& run) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+  };
+  const auto measured = [&number](const MeasuredCell& cell) {
+    const ConfidenceInterval interval = cell.success_interval();
+    const bool some = cell.solved > 0;
+    return Json{{"environment", cell.environment},
+                {"robots", cell.robots},
+                {"ssi", std::isfinite(cell.ssi_s) ? Json(cell.ssi_s) : Json("inf")},
+                {"reschedule", cell.reschedule},
+                {"order", cell.order},
+                {"planner", cell.method},
+                {"runs", cell.runs},
+                {"solved", cell.solved},
+                {"success", cell.success()},
+                {"success_interval", {interval.low, interval.high}},
+                {"seconds", cell.mean_seconds},
+                {"makespan", number(cell.mean_makespan_s)},
+                {"makespan_error", some ? number(cell.makespan_error_s) : Json(nullptr)},
+                {"flowtime", number(cell.mean_flowtime_s)},
+                {"flowtime_error", some ? number(cell.flowtime_error_s) : Json(nullptr)}};
+  };
+  Json json{{"run", run}, {"reproduced", is_reproduced(cells)}};
+  json["cells"] = Json::array();
+  for (const MeasuredCell& cell : cells) json["cells"].push_back(measured(cell));
+  json["table1"] = Json::array();
+  for (const TableLine& line : compare_with_table(cells)) {
+    json["table1"].push_back({{"robots", line.paper.robots},
+                              {"reschedule", line.paper.reschedule},
+                              {"paper",
+                               {{"success", line.paper.success},
+                                {"seconds", number(line.paper.seconds)},
+                                {"makespan", number(line.paper.makespan_s)},
+                                {"flowtime", number(line.paper.flowtime_s)}}},
+                              {"measured", line.measured ? measured(*line.measured) : Json(nullptr)},
+                              {"success", name(line.success)},
+                              {"makespan", name(line.makespan)},
+                              {"flowtime", name(line.flowtime)}});
+  }
+  json["claims"] = Json::array();
+  for (const Claim& claim : check_claims(cells)) {
+    json["claims"].push_back({{"id", claim.id},
+                              {"sentence", claim.sentence},
+                              {"holds", claim.holds ? Json(*claim.holds) : Json(nullptr)},
+                              {"figures", claim.figures}});
+  }
+  return json;
 }
 
 Chart figure_chart(const std::vector<MeasuredCell>& cells) {

@@ -1,6 +1,7 @@
 // The reproduction for people: tables as text, and one page with the figure.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace sipplab::bench {
 
 /// Table 1 beside the paper's, and each claim with its verdict.
 std::string reproduction_text(const std::vector<MeasuredCell>& cells);
+
+/// The same for programs: "run", "reproduced", and arrays "cells" (as measured), "table1" (beside the
+/// paper, with the standing of each figure) and "claims" ("holds" is null where nothing was measured).
+nlohmann::ordered_json reproduction_json(const std::vector<MeasuredCell>& cells, const std::string& run);
 
 /// Success over the number of robots, one line for each start-safe interval.
 Chart figure_chart(const std::vector<MeasuredCell>& cells);

@@ -89,7 +89,8 @@ bool Sweep::begin() {
 
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
-db::ResultRow Sweep::plan_one(const PreparedInstance& prepared, const SweepCase& parameters) const {
+Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
+                                                     const SweepCase& parameters) const {
   if (command_) return command_->run(prepared.instance, parameters.options);
   const PeakMemory memory;
   db::ResultRow row = parameters.refinement.is_wanted()
@@ -115,11 +116,13 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     const std::size_t position = next++;
     const PreparedInstance& prepared = instances[position];
-    db::ResultRow row = plan_one(prepared, entry.parameters);
+    Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters);
+    if (!planned) error_ = db::Error{db::ErrorKind::kInternal, std::move(planned.error())};
     if (command_ && stopping()) {
       state.SkipWithError("stopped before its end");  // the program was ended, too
       break;
     }
+    db::ResultRow& row = *planned;
     row.position = static_cast<std::int64_t>(position);
     row.repetition = entry.repetitions;
     state.SetIterationTime(static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond);

@@ -74,7 +74,8 @@ class Sweep {
  private:
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
-  db::ResultRow plan_one(const PreparedInstance& prepared, const SweepCase& parameters) const;
+  Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared,
+                                                const SweepCase& parameters) const;
 
   std::vector<InstanceSet> sets_;
   std::vector<SweepEntry> entries_;

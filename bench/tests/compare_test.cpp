@@ -130,6 +130,14 @@ TEST(Compare, RepetitionsAndEqualFilesAreOneObservation) {
   EXPECT_NE(compare_text(report).find("8 (80)"), std::string::npos) << compare_text(report);
 }
 
+TEST(Compare, AnInstanceLostInManyCellsIsOneLost) {
+  std::vector<db::PairedCell> cells(7, equal_cell(6));
+  for (db::PairedCell& cell : cells) cell.results[2].head = failed();
+  const CompareResult result = compare(cells, {});
+  EXPECT_EQ(result.lost, 1U);
+  EXPECT_EQ(result.verdict, CompareVerdict::kInconclusive) << result.reason;
+}
+
 TEST(Compare, AnInstanceSolvedMoreOftenByTheHeadIsGained) {
   std::vector<db::PairedCell> cells = {equal_cell(6)};
   for (db::PairedResult& result : cells[0].results) result.instance_hash = "one";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/comparison.hpp"
 #include "bench/gate/evidence.hpp"
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/protocol.hpp"
@@ -63,6 +64,13 @@ int alarms(double slowdown, int trials) {
   int count = 0;
   for (int i = 0; i < trials; ++i) count += alarmed(random, slowdown) ? 1 : 0;
   return count;
+}
+
+TEST(GateComparison, AJobThatDiffersInTwoWaysIsCountedOnce) {
+  const Difference plan{DifferenceKind::kPlan, "a", "b"};
+  const Difference repetition{DifferenceKind::kRepetition, "a", "b"};
+  EXPECT_EQ(differing_jobs({}), 0U);
+  EXPECT_EQ(differing_jobs({{3, plan}, {5, plan}, {3, repetition}}), 2U);
 }
 
 TEST(GateEvidence, TheMiddleHalfForgetsWildValues) {

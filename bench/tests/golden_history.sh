@@ -102,6 +102,7 @@ says '"excluded": true'
 expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
 grep -q '^0600000000' out && complain "an excluded run is in the trend"
 expect 0 runs --include "$worst"
+refused 'is not excluded' runs --include "$worst"
 expect 0 trend success --case robots=8,ssi=3,environment=empty,reschedule=deterministic
 says '^0600000000'
 
@@ -173,6 +174,7 @@ expect 0 sql 'SELECT :x + 1 AS y, :run = (SELECT uuid FROM run WHERE uuid = :run
 says '"y": 42'
 says '"known": 1'
 refused 'no value for :x' sql 'SELECT :x'
+refused 'parameter @x, expected one that begins with a colon' sql 'SELECT @x'
 refused 'parameter y, expected one that stands as :y' sql 'SELECT 1' --param y=1
 refused "expected NAME=VALUE" sql 'SELECT 1' --param y
 refused 'no query' sql

@@ -63,10 +63,20 @@ for command in './honest' 'sh ./honest' "sh ../$(basename "$work")/honest"; do
   equal "$(sqlite3 planners.db "SELECT count(*), sum(status = 'solved') FROM v_results WHERE planner = 'cmd:by $command'")" '2|2' \
     "a planner called as $command"
 done
+TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+  --db "$work/named.db" --planner "cmd:sh ./honest {instance} {scen} {out} {config}" --json "${unlimited[@]}"
+says '"cmd:honest"'
 export TMPDIR=/nowhere/at/all
 expect 2 bench --map empty:9x9 --robots 4 --count 2 --db planners.db --planner "cmd:$work/honest {instance} {scen} {out} {config}"
 says '/nowhere/at/all: is no folder.*TMPDIR' err
 unset TMPDIR
+
+planner counts_on_sigpipe <<'E2'
+[ $((0x$(awk '/SigIgn/ { print $2 }' /proc/self/status) & 0x1000)) -eq 0 ] || exit 3
+"$sipplab" plan --instance "$1" -o "$3"
+E2
+sweeps counts_on_sigpipe "${unlimited[@]}"
+equal "$(row counts_on_sigpipe 'status, message')" 'solved|' 'signals are as a shell has them'
 
 planner exits_with_255 <<'E2'
 "$sipplab" plan --instance "$1" -o "$3"

@@ -34,6 +34,10 @@ cp out first
 planned=$(ask "SELECT run FROM v_runs")
 verdict --run latest
 cmp -s out first || complain 'judged later, the run says something else'
+verdict --run latest --json
+says '"reproduced": '
+says '"success_interval": '
+equal "$(grep -c '"holds": null' out)" 10 'claims in JSON'
 verdict --quick --count 2 --robots 32 --repeats 1 --resume
 says 'no unfinished run' err
 
@@ -65,6 +69,10 @@ refused "expected I/N" reproduce aamas2018 --shard 3
 refused "nowhere" reproduce aamas2018 --instances nowhere
 expect 0 bench --suite smoke --robots 8 --map empty:9x9 --count 1
 expect 4 plot figure1
+expect 0 bench --suite smoke --robots 8 --map warehouse --count 1 --connectedness 2,4
+refused 'expected one planner' plot table1
+expect 0 plot runtime latest --case connectedness=2
+says '<svg'
 
 [ "$broken" -eq 0 ] && echo "reproduce: everything as promised"
 exit "$((broken > 0))"

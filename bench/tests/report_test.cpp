@@ -78,6 +78,17 @@ TEST(Charts, draw_nothing_and_single_points_and_constants) {
   }
 }
 
+TEST(Charts, ring_the_points_of_dashed_lines) {
+  Chart chart = sample_chart();
+  chart.lines.push_back(chart.lines[0]);
+  chart.lines[1].dashed = true;
+  chart.lines[1].label = "";
+  const std::string picture = svg(chart, SvgUse::kFile);
+  EXPECT_EQ(count(picture, "r=\"2.5\""), 3U);
+  EXPECT_EQ(count(picture, "r=\"4.5\" fill=\"none\""), 3U) << "to be seen around dots in the same place";
+  EXPECT_EQ(count(picture, "<title>: "), 0U);
+}
+
 TEST(Charts, label_only_the_ticks_that_have_room) {
   Chart chart = sample_chart();
   chart.lines[0].points = {{-9, 1}, {320, 2}};

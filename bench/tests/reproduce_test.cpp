@@ -89,6 +89,19 @@ TEST(Reproduction, ACostOfTooFewInstancesIsNotJudged) {
   EXPECT_EQ(compare_with_table(cells)[11].flowtime, Standing::kNotMeasured);
 }
 
+TEST(Reproduction, NoClaimIsJudgedByAFewInstances) {
+  auto cells = the_papers_cells();
+  for (MeasuredCell& cell : cells) cell.instances = kFewestInstances;
+  const auto judged = [&cells] {
+    const std::vector<Claim> claims = check_claims(cells);
+    return std::count_if(claims.begin(), claims.end(),
+                         [](const Claim& claim) { return claim.holds.has_value(); });
+  };
+  EXPECT_GT(judged(), 5);
+  for (MeasuredCell& cell : cells) cell.instances = kFewestInstances - 1;
+  EXPECT_EQ(judged(), 0);
+}
+
 TEST(Reproduction, SeedsOfOneInstanceDoNotNarrowTheIntervalOfSuccess) {
   MeasuredCell cell = figure_cell(192, 3, 60);
   const ConfidenceInterval of_runs = cell.success_interval();
