@@ -78,10 +78,13 @@ Result<std::int64_t> record_fuzz_run(Database& database, const FuzzOrigin& origi
   return id;
 }
 
+// An engine ends at the first input that seems slow, so a run with one counts if it went on all the same.
 Result<bool> is_fuzzed_clean(Database& database, const std::string& target, const std::string& target_hash) {
   auto select = Statement::prepare(database.connection(),
                                    "SELECT 1 FROM fuzz_run WHERE target = ?1 AND target_hash = ?2 "
-                                   "AND status = 'clean' AND mode <> 'smoke' AND NOT EXISTS "
+                                   "AND status = 'clean' AND mode <> 'smoke' "
+                                   "AND (timeouts = 0 OR wall_time_ns >= 9e8 * budget_s) "
+                                   "AND NOT EXISTS "
                                    "(SELECT 1 FROM fuzz_run WHERE target = ?1 AND target_hash = ?2 "
                                    "AND status = 'findings') LIMIT 1",
                                    "reading fuzzing runs");

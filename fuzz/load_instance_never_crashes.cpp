@@ -111,7 +111,7 @@ void check_parts(const Instance& instance, const PlannerOptions& options) {
                 again.any_angle == options.any_angle && again.connectedness == options.connectedness &&
                     again.weight == options.weight && again.rescheduling == options.rescheduling &&
                     again.order == options.order && again.ssi_s == options.ssi_s &&
-                    again.time_limit_s == options.time_limit_s,
+                    again.time_limit_s == options.time_limit_s && again.rules == options.rules,
                 "a configuration reads as another");
 }
 

@@ -48,8 +48,8 @@ bool same(const SolutionDocument& a, const SolutionDocument& b) {
   return a.solution == b.solution && a.status == b.status && a.valid == b.valid && a.order == b.order &&
          a.makespan_s == b.makespan_s && a.flowtime_s == b.flowtime_s && a.tries == b.tries &&
          a.expansions == b.expansions && a.generations == b.generations &&
-         a.planning_seconds == b.planning_seconds && a.plan_hash == b.plan_hash &&
-         same_options(a.options, b.options);
+         a.planning_seconds == b.planning_seconds && a.plan_hash == b.plan_hash && a.made_by == b.made_by &&
+         a.ssi_kept_s == b.ssi_kept_s && same_options(a.options, b.options);
 }
 
 void check_read_back(const SolutionDocument& document) {

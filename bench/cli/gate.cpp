@@ -111,7 +111,8 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
   live.show("");
   bench::update_noise(request, cases, noise, *last);
   warn_of_unfit_builds(*last);
-  print(arguments.json ? bench::noise_json(request, *last) : bench::noise_text(request, *last));
+  print(arguments.json || arguments.format == "json" ? bench::noise_json(request, *last)
+                                                     : bench::noise_text(request, *last));
   return kSuccess;
 }
 
@@ -153,6 +154,10 @@ int run_gate(const GateArguments& given) {
     if (arguments.base.empty()) arguments.base = kThisProgram;
     if (!arguments.head.empty()) {
       return fail(kBadUsage, "sipplab: --calibrate runs one build against itself, expected no --head");
+    }
+    if (arguments.junit || arguments.format == "markdown") {
+      return fail(kBadUsage,
+                  "sipplab: --calibrate has no verdict, expected --format text or json and no --junit");
     }
     arguments.head = arguments.base;
   }

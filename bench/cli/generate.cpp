@@ -103,6 +103,13 @@ int run_generate(const GenerateArguments& arguments) {
   }
 
   std::error_code error;
+  for (std::uint64_t index = 0; spec->kind == MapSpec::Kind::kFile && index < arguments.count; ++index) {
+    const auto instance = generate_instance(*spec, generator_options(arguments, index));
+    for (const File& file : files_of(arguments, *instance, index)) {
+      if (!std::filesystem::equivalent(file.path, spec->path, error)) continue;
+      return fail(kBadUsage, "sipplab: -o and --map: " + file.path + " is the map, expected another folder");
+    }
+  }
   std::filesystem::create_directories(arguments.folder, error);
   if (error)
     return fail(kBadUsage, "sipplab: cannot make folder " + arguments.folder + ": " + error.message());

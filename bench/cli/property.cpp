@@ -167,7 +167,7 @@ const char* text_of(bench::ProgramVerdict verdict) {
     case bench::ProgramVerdict::kNotRun:
       break;
   }
-  return "not run: its program is not there";
+  return "not run: it is not there any more";
 }
 
 int run_replay(const PropertyArguments& arguments) {

@@ -35,18 +35,23 @@ std::optional<std::string> drawn_in_child(const Draw& draw) {
   int ends[2];
   if (pipe(ends) != 0) return std::nullopt;
   const pid_t child = fork();
-  if (child < 0) return std::nullopt;
-  if (child == 0) {
-    alarm(kDrawLimitS);
-    std::string_view rest;
-    const std::string picture = draw();
-    for (rest = picture; !rest.empty();) {
-      const ssize_t written = write(ends[1], rest.data(), rest.size());
-      if (written <= 0) _exit(1);
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    }
-    _exit(0);
+  if (child < 0) {
+    close(ends[0]);
+    close(ends[1]);
+    return std::nullopt;
   }
+  if (child == 0) try {
+      alarm(kDrawLimitS);
+      const std::string picture = draw();
+      for (std::string_view rest = picture; !rest.empty();) {
+        const ssize_t written = write(ends[1], rest.data(), rest.size());
+        if (written <= 0) _exit(1);
+        rest.remove_prefix(static_cast<std::size_t>(written));
+      }
+      _exit(0);
+    } catch (...) {
+      _exit(1);  // what follows is the parent's
+    }
   close(ends[1]);
   std::string picture;
   char buffer[4096];

@@ -175,6 +175,9 @@ Expected<db::MeasurementRun, std::string> read_google_benchmark(const std::strin
                        text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
     return Unexpected{
         fmt::format("{}:{}: not JSON, expected what --benchmark_format=json writes", path, line)};
+  } catch (const Json::out_of_range&) {
+    return Unexpected{path +
+                      ": a number beyond those of 64 bits, expected what --benchmark_format=json writes"};
   }
   if (!report.is_object() || !report.contains("benchmarks") || !report["benchmarks"].is_array() ||
       !report.value("context", Json::object()).is_object()) {

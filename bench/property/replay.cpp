@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "property_tests/support/property_log.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -74,8 +76,11 @@ ProgramVerdict replay_program(const std::filesystem::path& program, const std::s
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (failed != 0 || waitpid(child, &status, 0) != child) return ProgramVerdict::kNotRun;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    return ProgramVerdict::kNotRun;  // could not be started
+  constexpr int kCannotExecute = 127;  // as shells have it
+  if (WIFEXITED(status) &&
+      (WEXITSTATUS(status) == kCannotExecute || WEXITSTATUS(status) == kNoSuchProperty)) {
+    return ProgramVerdict::kNotRun;
+  }
   const bool holds = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   return holds ? ProgramVerdict::kHolds : ProgramVerdict::kFails;
 }

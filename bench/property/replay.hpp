@@ -33,7 +33,7 @@ std::string replay_command(const std::filesystem::path& program, const std::stri
 enum class ProgramVerdict {
   kHolds,
   kFails,   ///< or crashed
-  kNotRun,  ///< no such program, or it cannot be started
+  kNotRun,  ///< no such program, it cannot be started, or it has no such property
 };
 
 /// Runs the program with RC_PARAMS set to `reproduce`; what it prints goes to stderr.

@@ -102,9 +102,15 @@ std::vector<DensityChart> density_charts(const db::RunReport& run, const std::op
     if (seen.insert(method_of(cell)).second) methods.push_back(method_of(cell));
   }
   std::vector<DensityChart> charts;
+  std::set<std::string> taken;
   for (const std::string& method : methods) {
-    charts.push_back({file_name("success", method), chart_of(run, base, method, false)});
-    charts.push_back({file_name("runtime", method), chart_of(run, base, method, true)});
+    // Methods may differ in what a file's name does not hold.
+    std::string suffix;
+    for (int copy = 2; !taken.insert(file_name("", method) + suffix).second; ++copy) {
+      suffix = fmt::format("-{}", copy);
+    }
+    charts.push_back({file_name("success", method) + suffix, chart_of(run, base, method, false)});
+    charts.push_back({file_name("runtime", method) + suffix, chart_of(run, base, method, true)});
   }
   return charts;
 }

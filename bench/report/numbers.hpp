@@ -6,7 +6,7 @@
 
 namespace sipplab::bench {
 
-/// Four significant digits: "0.8571", "12.34", "1.2e+06".
+/// Four significant digits, whole numbers below ten millions: "0.8571", "12.34", "123456", "1.2e+07".
 std::string short_number(double value);
 /// With its unit: seconds become ms or us where that reads better.
 std::string with_unit(double value, std::string_view unit);

@@ -95,7 +95,7 @@ class Page {
   void density(const std::vector<DensityChart>& charts) {
     section("density", "Success and runtime by number of robots");
     if (charts.empty()) note("This run has no finished case.");
-    if (data_.base) note("Dashed: the base.");
+    if (data_.base && !data_.cells.rows.empty()) note("Dashed: the base.");
     text_ += "<div class=\"charts\">\n";
     for (const DensityChart& density : charts) text_ += svg(density.chart, SvgUse::kInline);
     text_ += "</div>\n";
@@ -200,12 +200,20 @@ class Page {
     close_table();
   }
 
+  /// The first rows, with a word where there are more.
+  db::Table shortened(db::Table table, std::size_t most, const char* view) {
+    if (table.rows.size() <= most) return table;
+    table.rows.resize(most);
+    note(fmt::format("The first {}; {} has them all.", most, view));
+    return table;
+  }
+
   void flips() {
     section("flips", "Flips");
     if (!data_.base) return note("No base.");
     if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
     if (data_.flips.rows.empty()) return note("No instance is solved by one of the two runs only.");
-    plain_table(data_.flips, "ttnnttttnn", 0);
+    plain_table(shortened(data_.flips, kMostFlips, "v_flips"), "ttnnttttnn", 0);
   }
 
   void trends() {
@@ -279,7 +287,7 @@ class Page {
       plain_table(data_.fuzz_runs, "tttnnnn", 1);
     }
     if (data_.findings.rows.empty()) return note("No finding.");
-    plain_table(data_.findings, "ntttwwttn", 2);
+    plain_table(shortened(data_.findings, kMostFindings, "v_findings"), "ntttwwttn", 2);
   }
 
   const ReportData& data_;

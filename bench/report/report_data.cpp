@@ -55,7 +55,7 @@ constexpr const char* kFlips =
     "SELECT direction, environment, robots, ssi_s, reschedule, instance, base_status, head_status, "
     "base_planning_time_s AS base_s, head_planning_time_s AS head_s FROM v_flips WHERE base_run = :other AND "
     "head_run = :run "
-    "ORDER BY direction DESC, environment, robots, ssi_s, instance LIMIT 200";
+    "ORDER BY direction DESC, environment, robots, ssi_s, instance LIMIT 201";
 constexpr const char* kProperties =
     "SELECT room, title, status, cases, started_utc, substr(commit_hash, 1, 10) AS commit_ FROM "
     "v_property_latest "
@@ -66,7 +66,7 @@ constexpr const char* kFuzzRuns =
     "FROM v_fuzz_runs GROUP BY target ORDER BY target";
 constexpr const char* kFindings =
     "SELECT id, target, state, kind, claim, message, first_utc, last_utc, times_found FROM v_findings "
-    "ORDER BY state = 'fixed', last_utc DESC LIMIT 100";
+    "ORDER BY state = 'fixed', last_utc DESC LIMIT 101";
 
 db::Result<db::Done> read_tables(const std::filesystem::path& path, ReportData& data) {
   struct Question {

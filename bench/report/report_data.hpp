@@ -12,6 +12,10 @@
 
 namespace sipplab::bench {
 
+/// Rows that a page lists at most; of longer tables one more is read.
+inline constexpr std::size_t kMostFlips = 200;
+inline constexpr std::size_t kMostFindings = 100;
+
 struct ReportTrend {
   const db::TrendMetric* metric = nullptr;
   std::vector<db::TrendSeries> series;  ///< of the cases of the run; empty ones are left out

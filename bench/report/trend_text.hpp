@@ -27,7 +27,7 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
 /// The case in words, its instances where it has several sets of them, machine and build of times.
 std::string series_name(const db::TrendSeries& series);
 
-/// "1a2b3c4d5e", "1a2b3c4d5e+" with uncommitted changes, or a date.
+/// "1a2b3c4d5e", "1a2b3c4d5e+" with uncommitted changes, or "no commit".
 std::string version_name(const db::TrendPoint& point);
 
 /// "0.4 -> 0.98 (+58.0 points, better)".

@@ -156,7 +156,9 @@ Claim rises_with_interval(const Cells& cells) {
   for (const std::int64_t robots : kFigureRobots) {
     const MeasuredCell* without = cells.figure(robots, 0);
     const MeasuredCell* with = cells.figure(robots, 5);
-    if (without == nullptr || with == nullptr || with->solved == 0) continue;  // hopeless with both
+    if (without == nullptr || with == nullptr || (without->solved == 0 && with->solved == 0)) {
+      continue;  // hopeless with both
+    }
     (robots > 64 ? many : few) += with->success() - without->success();
     ++(robots > 64 ? many_count : few_count);
   }
@@ -272,7 +274,8 @@ Claim longest_first_for_makespan(const Cells& cells) {
   for (const std::int64_t robots : kTableRobots) {
     const MeasuredCell* shortest = cells.table("deterministic", robots);
     const MeasuredCell* longest = cells.table("random", robots, "longest");
-    if (shortest == nullptr || longest == nullptr || shortest->solved == 0 || longest->solved == 0) continue;
+    if (shortest == nullptr || longest == nullptr) continue;
+    if (shortest->success() < kBothSolve || longest->success() < kBothSolve) continue;
     claim.holds = claim.holds.value_or(true) && *longest->mean_makespan_s < *shortest->mean_makespan_s;
     claim.figures += fmt::format("{}{} robots: {:.1f} s against {:.1f} s", claim.figures.empty() ? "" : ", ",
                                  robots, *longest->mean_makespan_s, *shortest->mean_makespan_s);

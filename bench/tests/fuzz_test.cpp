@@ -60,7 +60,8 @@ TEST(Coverage, TakesTheFilesOfThePlannerAlone) {
 }
 
 TEST(Coverage, AnythingElseIsRefusedInOneLine) {
-  for (const char* text : {"", "{", "[]", R"({"data": 7})", R"({"data": []})"}) {
+  for (const char* text : {"", "{", "[]", R"({"data": 7})", R"({"data": []})",
+                           R"({"data": [{"files": [3]}]})", R"({"data": [{"files": [{"filename": 7}]}]})"}) {
     const auto files = parse_coverage(text, "summary.json");
     ASSERT_FALSE(files.has_value()) << text;
     EXPECT_EQ(files.error().rfind("summary.json: ", 0), 0U);

@@ -316,6 +316,11 @@ equal "$(dump)" "$before" "the history after bad input"
 
 # --- what happens to a sweep ------------------------------------------------------
 
+# A map that would be written over by what is made from it.
+mkdir own
+expect 0 generate --map empty:5x5 --agents 1 --count 1 --format movingai -o own
+refused 'own/0.map is the map' generate --map own/0.map --agents 2 --count 1 --format movingai -o own
+
 # Killed at any moment: what was finished is there, and --resume does the rest. How
 # long a sweep takes depends on the machine and the build, so it grows until the kill
 # comes in time.

@@ -119,6 +119,8 @@ chmod +x programs/stalled
 ln -s "$replay" programs/replay_stalled
 expect_code 0 "${run[@]}" --target stalled
 expect_sql 'clean|1' "SELECT status, timeouts FROM fuzz_run WHERE target = 'stalled'"
+expect_code 0 "${run[@]}" --target stalled --skip-known
+if grep -q 'skipped' err; then fail 'a program that was not fuzzed to the end is left out'; fi
 expect_sql '1' 'SELECT count(*) FROM finding'
 
 # Coverage as llvm-cov sums it up.

@@ -22,6 +22,7 @@ refused 'expected --base' gate --db gate.db
 refused 'no program' gate --base nowhere --head . --db gate.db
 refused 'suite' gate --base . --head . --suite paper --db gate.db
 refused 'no --head' gate --calibrate --head . --db gate.db
+refused 'has no verdict' gate --calibrate --junit junit.xml --db gate.db
 printf '#!/bin/sh\nexit 0\n' >other && chmod +x other
 refused 'head build.*does not serve the gate' gate --base . --head other --db gate.db
 printf 'not a database, whatever its name says; long enough to be taken for one' >text.db
@@ -30,6 +31,9 @@ refused 'text.db' gate --base . --head . --db text.db
 expect 0 gate --calibrate --comparisons 1 --pairs 5 --pair-seconds 0.01 --fewest-rounds 1 --timed-only --db gate.db
 says 'from 1 comparison of equal builds'
 says '^sees: '
+
+expect 0 gate --calibrate --comparisons 1 --pairs 5 --pair-seconds 0.01 --fewest-rounds 1 --timed-only --db json.db --format json
+says '^\{'
 
 # The same program and the same plans: whatever the clock says, it is noise.
 expect 0 "${gate[@]}" --pairs 5 --json

@@ -154,6 +154,8 @@ equal "$(ask "SELECT started_utc || counters FROM v_measurements WHERE benchmark
   '2026-01-31T12:00:00.000Z{"items":8.0}' "imported time and counters"
 printf '{"context": {}\n, "benchmarks": [' >cut.json
 refused '^cut.json:2: not JSON' import google-benchmark cut.json
+echo '{"context": {}, "benchmarks": [{"name": "a", "real_time": 1e400}]}' >large.json
+refused 'beyond those of 64 bits' import google-benchmark large.json
 echo '{"a": 1}' >other.json
 refused "no list 'benchmarks'" import google-benchmark other.json
 refused 'cannot be read' import google-benchmark none.json

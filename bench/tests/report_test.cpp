@@ -120,6 +120,9 @@ TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   ASSERT_EQ(charts.size(), 2U);
   EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-any-angle-8");
   EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-any-angle-8");
+  run.cells.push_back(run.cells.front());
+  run.cells.back().environment = "ware=house";
+  EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-any-angle-8-2");
   ASSERT_EQ(charts[0].chart.lines.size(), 4U);
   EXPECT_EQ(charts[0].chart.lines[2].label, "ssi inf");
   EXPECT_TRUE(charts[0].chart.lines[3].dashed);

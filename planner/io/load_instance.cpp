@@ -154,11 +154,12 @@ std::optional<InputError> keep_first(LinedList<Agent>& agents, std::size_t wante
 /// The line of the agent or obstacle that breaks a rule.
 InputError with_line(const InstanceError& error, const InstanceParts& agents,
                      const InstanceParts* obstacles) {
-  if (error.agent && *error.agent < agents.agents->lines.size()) {
-    return {agents.file_name, agents.agents->lines[*error.agent], error.what, error.expected};
-  }
+  // An obstacle may break a rule together with an agent, which is where it may be.
   if (error.obstacle && obstacles && *error.obstacle < obstacles->obstacles->lines.size()) {
     return {obstacles->file_name, obstacles->obstacles->lines[*error.obstacle], error.what, error.expected};
+  }
+  if (error.agent && *error.agent < agents.agents->lines.size()) {
+    return {agents.file_name, agents.agents->lines[*error.agent], error.what, error.expected};
   }
   return {agents.file_name, agents.agents->line, error.what, error.expected};
 }

@@ -1,5 +1,8 @@
 // Reading solutions from JSON: see solution_io.hpp.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -63,6 +66,18 @@ class JsonReader {
     if (value->is_number_unsigned()) return value->get<std::uint64_t>();
     fail(key, "a number of things, 0 or more");
     return 0;
+  }
+  /// What was counted, or 0 where it is not said; XML holds no more.
+  std::uint64_t work(const json& object, const char* key) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
+    const std::uint64_t counted = count(object, key);
+    if (counted > kMost) fail(key, "a number of things up to 2^53");
+    return counted;
+  }
+  std::optional<double> duration(const json& object, const char* key) {
+    const std::optional<double> seconds = number_or_null(object, key);
+    if (seconds && *seconds < 0) fail(key, "seconds, 0 or more");
+    return seconds;
   }
   std::string text(const json& object, const char* key, const std::string& otherwise) {
     const json* value = find(object, key);
@@ -164,7 +179,7 @@ std::optional<double> read_ssi(JsonReader& reader, const json& document, const c
   if (!ssi) return std::nullopt;
   if (ssi->is_string() && ssi->get<std::string>() == "inf") return kInfiniteSsi;
   const double ssi_s = reader.number(document, key, "");
-  if (ssi_s < 0) reader.fail(key, "a number from 0, or \"inf\"");
+  if (!is_ssi(ssi_s)) reader.fail(key, fmt::format("a number from 0 to {:g}, or \"inf\"", kMaxSsiS));
   return ssi_s;
 }
 
@@ -176,9 +191,12 @@ double read_margin(JsonReader& reader, const json& document, const char* key) {
 
 void read_planner_options(JsonReader& reader, const json& document, SolutionDocument& result) {
   const std::optional<double> ssi_s = read_ssi(reader, document, "ssi");
-  if (!ssi_s) return;
+  constexpr std::array kRules = {"turns", "wait_before_move", "inflate_distance", "inflate_time"};
+  const bool has_rules = std::any_of(kRules.begin(), kRules.end(),
+                                     [&](const char* key) { return reader.find(document, key) != nullptr; });
+  if (!ssi_s && !has_rules) return;
   PlannerOptions options;
-  options.ssi_s = *ssi_s;
+  options.ssi_s = ssi_s.value_or(0);
   const auto rescheduling = parse_rescheduling(reader.text(document, "reschedule", "none"));
   const auto order = parse_initial_order(reader.text(document, "initial_order", "fifo"));
   if (!rescheduling) reader.fail("reschedule", "none, deterministic, random or ejection");
@@ -220,12 +238,12 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
     reader.fail("status", "solved, failed or limit");
   }
   result.valid = reader.boolean(document, "valid", false);
-  result.makespan_s = reader.number_or_null(document, "makespan");
-  result.flowtime_s = reader.number_or_null(document, "flowtime");
-  result.tries = reader.count(document, "tries");
-  result.expansions = reader.count(document, "expansions");
-  result.generations = reader.count(document, "generations");
-  result.planning_seconds = reader.number_or_null(document, "planning_seconds").value_or(0);
+  result.makespan_s = reader.duration(document, "makespan");
+  result.flowtime_s = reader.duration(document, "flowtime");
+  result.tries = reader.work(document, "tries");
+  result.expansions = reader.work(document, "expansions");
+  result.generations = reader.work(document, "generations");
+  result.planning_seconds = reader.duration(document, "planning_seconds").value_or(0);
   result.plan_hash = reader.text(document, "plan_hash", "");
   if (reader.find(document, "robots") && reader.count(document, "robots") != instance.agents.size()) {
     reader.fail_with("robots", "robots is " + std::to_string(reader.count(document, "robots")),

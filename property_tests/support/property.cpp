@@ -184,6 +184,15 @@ bool reproduce_failure(const rc::detail::Property& property, const Reproduce& re
   return !failed;
 }
 
+/// Whether a property that is to be reproduced is there.
+bool met_reproduced = false;
+
+void end_where_none_was_met() {
+  if (met_reproduced) return;
+  std::cerr << "no property of this program is the one that is to be reproduced\n";
+  std::_Exit(kNoSuchProperty);
+}
+
 }  // namespace
 
 void note_case(const PlanCase& plan_case) { noted_case = plan_case; }
@@ -192,7 +201,11 @@ bool run_property(const std::string& room, int cases, const std::string& title,
                   const rc::detail::Property& property) {
   const rc::detail::Configuration& configuration = configured(cases);
   const auto reproduce = configuration.reproduce.find(title);
-  if (!configuration.reproduce.empty() && reproduce == configuration.reproduce.end()) return true;
+  if (!configuration.reproduce.empty()) {
+    [[maybe_unused]] static const int registered = std::atexit(end_where_none_was_met);
+    if (reproduce == configuration.reproduce.end()) return true;
+    met_reproduced = true;
+  }
   std::cerr << "\n- " << title << '\n';
   if (!configuration.reproduce.empty()) return reproduce_failure(property, reproduce->second);
 

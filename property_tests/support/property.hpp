@@ -30,7 +30,8 @@ bool run_property(const std::string& room, int cases, const std::string& title,
 /// appended to it; property_log.hpp says what is in it.
 ///
 /// With "reproduce=..." in RC_PARAMS, only the counterexamples that it holds are tried:
-/// nothing is drawn or logged, and properties that it does not name hold.
+/// nothing is drawn or logged, and properties that it does not name hold. A program that has
+/// none of those that are named ends with kNoSuchProperty.
 template <class Testable>
 bool property(const std::string& title, Testable&& testable) {
   return run_property(SIPPLAB_PROPERTY_ROOM, SIPPLAB_PROPERTY_CASES, title,

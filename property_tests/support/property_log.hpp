@@ -11,6 +11,9 @@
 
 namespace sipplab {
 
+/// Exit code of a program that has none of the properties that it is to reproduce.
+inline constexpr int kNoSuchProperty = 3;
+
 /// Names of members are the keys of the JSON object.
 struct PropertyRecord {
   std::string uuid;  ///< a line that is recorded twice is stored once
@@ -18,7 +21,7 @@ struct PropertyRecord {
   std::string room;  ///< the program, without "property_"
   std::string title;
   std::uint64_t seed = 0;
-  int max_success = 0;        ///< cases that were asked for
+  int max_success = 0;  ///< cases that were asked for
   /// "started", then, in a second line with the same UUID, "passed", "failed" or "gave_up"
   /// (too many discards). A run of which there is no second line has crashed.
   std::string status;

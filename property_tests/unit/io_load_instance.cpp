@@ -172,6 +172,19 @@ TEST_F(IoLoadInstance, AScenarioBringsItsMap) {
   EXPECT_EQ(error_of(just(write("marked.scen", byte_order_mark + row))), "no error");
 }
 
+TEST_F(IoLoadInstance, AnObstacleOnAStartIsFoundWhereTheObstacleIs) {
+  InstanceFiles files;
+  files.map = kData + "maps/notch.map";
+  files.task =
+      write("task.xml",
+            "<root><agents><agent start.x=\"0\" start.y=\"0\" goal.x=\"4\" goal.y=\"2\"/></agents></root>");
+  files.obstacles = write("obstacles.xml",
+                          "<root><dynamicobstacles>\n\n<obstacle id=\"o\">\n"
+                          "<section start.x=\"0\" start.y=\"0\" goal.x=\"0\" goal.y=\"0\" duration=\"9\"/>\n"
+                          "</obstacle></dynamicobstacles></root>");
+  EXPECT_EQ(error_of(files).substr(0, 42), "F/obstacles.xml:3: obstacle o: stands at (");
+}
+
 TEST_F(IoLoadInstance, AnyFormatsGoTogether) {
   InstanceFiles files;
   files.task =

@@ -148,11 +148,11 @@ TEST(IoSolution, TurnsAndRulesSurviveTheRoundTripBitByBit) {
 
 TEST(IoSolution, TurnsOnTheMoveAreRefused) {
   const Instance instance = awkward_instance();
-  EXPECT_EQ(
-      error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 0, "y0": 0, "x1": 1,
+  EXPECT_EQ(error_of(R"({"trajectories": [{"id": 0, "motions": [{"t0": 0, "t1": 1, "x0": 0, "y0": 0, "x1": 1,
                        "y1": 0, "turn_to": 0}]}]})",
-               instance),
-      "s:2: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place alone");
+                     instance),
+            "s:2: trajectories[0].motions[0].turn_to in a motion that changes place, expected turns in place "
+            "alone");
   EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,1,0,90\n", instance),
             "s:2: turn_to in a motion that changes place, expected turns in place alone");
   EXPECT_EQ(error_of("agent,id,t0,t1,x0,y0,x1,y1,turn_to\n0,0,0,1,0,0,0,0,up\n", instance),
@@ -245,6 +245,37 @@ TEST(IoSolution, JsonIsTheDocumentedDocument) {
   EXPECT_EQ(document["trajectories"][2].dump(), R"({"id":"007","radius":0.4,"speed":2,"motions":[]})");
   EXPECT_EQ(document["trajectories"][0]["motions"][0].dump(),
             R"({"t0":0,"t1":0.3333333333333333,"x0":0,"y0":0,"x1":0,"y1":0})");
+}
+
+TEST(IoSolution, JsonHoldsWhatXmlHolds) {
+  const Instance instance = awkward_instance();
+  const std::string text = solution_to_json(instance, awkward_document(instance));
+  const auto complaint = [&](const char* key, const nlohmann::ordered_json& value) {
+    auto document = nlohmann::ordered_json::parse(text);
+    document[key] = value;
+    const Input<SolutionDocument> read = parse_solution(document.dump(), "s", instance);
+    return read ? std::string("none") : read.error().message();
+  };
+  EXPECT_EQ(complaint("ssi", 1e7), "none");
+  EXPECT_NE(complaint("ssi", 1e8), "none");
+  EXPECT_NE(complaint("ssi_kept", 1e300), "none");
+  EXPECT_NE(complaint("tries", UINT64_MAX), "none");
+  EXPECT_NE(complaint("planning_seconds", -1), "none");
+  EXPECT_NE(complaint("makespan", -1), "none");
+}
+
+TEST(IoSolution, RulesOfMotionNeedNoStartSafeInterval) {
+  const Instance instance = awkward_instance();
+  auto document = nlohmann::json::parse(solution_to_json(instance, awkward_document(instance)));
+  document.erase("ssi");
+  EXPECT_FALSE(parse_solution(document.dump(), "s", instance)->options);
+  document["turns"] = true;
+  document["wait_before_move"] = 0.5;
+  const Input<SolutionDocument> read = parse_solution(document.dump(), "s", instance);
+  ASSERT_TRUE(read && read->options);
+  EXPECT_TRUE(read->options->rules.turns);
+  EXPECT_EQ(read->options->rules.wait_before_move_s, 0.5);
+  EXPECT_EQ(read->options->ssi_s, 0);
 }
 
 TEST(IoSolution, NothingFoundIsNullAndReadsBack) {
