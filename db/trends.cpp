@@ -4,10 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "db/queries.hpp"
 #include "db/sqlite/statement.hpp"
@@ -102,7 +105,33 @@ std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
 struct CaseName {
   std::int64_t id = 0;
   std::string label;
+  /// The other parameters, each as a few words: they go into the label where it would not be unique.
+  std::array<std::string, 7> details;
 };
+
+/// A detail each; infinity and the largest count are no limits.
+constexpr std::string_view kDetailsSql =
+    "'instances ' || instance_set, 'seed ' || seed, printf('radius %g', radius_cells), "
+    "printf('speed %g', speed_cells_per_s), "
+    "iif(time_limit_s = 9e999, 'no time limit', printf('at most %g s', time_limit_s)), "
+    "iif(max_expansions = 9223372036854775807, 'any expansions', 'at most ' || max_expansions || ' "
+    "expansions'), "
+    "iif(max_restarts = 9223372036854775807, 'any restarts', 'at most ' || max_restarts || ' restarts')";
+
+/// Adds to labels that several cases share the details in which those cases differ.
+void tell_apart(std::vector<CaseName>& cases) {
+  std::map<std::string, std::vector<CaseName*>> by_label;
+  for (CaseName& named : cases) by_label[named.label].push_back(&named);
+  for (const auto& [label, alike] : by_label) {
+    for (std::size_t i = 0; i < alike.front()->details.size(); ++i) {
+      const std::string& first = alike.front()->details[i];
+      const bool differs = std::any_of(alike.begin(), alike.end(),
+                                       [&](const CaseName* named) { return named->details[i] != first; });
+      if (!differs) continue;
+      for (CaseName* named : alike) named->label += ", " + named->details[i];
+    }
+  }
+}
 
 Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& filter) {
   auto select =
@@ -113,7 +142,9 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
                          "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, " +
                              std::string(kPlannerNameSql) +
                              ", iif(reschedule = 'random' OR initial_order = 'random', printf(', seed %d', "
-                             "seed), '')) FROM case_ "
+                             "seed), '')), " +
+                             std::string(kDetailsSql) +
+                             " FROM case_ "
                              "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS "
                              "NULL OR robots = ?3) "
                              "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
@@ -130,9 +161,15 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
   for (;;) {
     const auto row = select->step();
     if (!row) return Unexpected{row.error()};
-    if (!row.value()) return cases;
-    cases.push_back({select->integer(0), select->text(1)});
+    if (!row.value()) break;
+    CaseName named{select->integer(0), select->text(1), {}};
+    for (std::size_t i = 0; i < named.details.size(); ++i) {
+      named.details[i] = select->text(static_cast<int>(i) + 2);
+    }
+    cases.push_back(std::move(named));
   }
+  tell_apart(cases);
+  return cases;
 }
 
 /// What samples of one series have in common.

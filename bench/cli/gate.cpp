@@ -127,11 +127,11 @@ int run_comparison(const GateArguments& arguments, const bench::GateCases& cases
         bench::compare_builds(request, cases, *noise, [&live](const std::string& what) { live.show(what); });
   }
   if (!result) return failed_comparison(result.error());
+  // What took so long to find out is said, even where the history does not take it.
   const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, false));
-  if (!recorded) return fail(recorded.error());
   warn_of_unfit_builds(*result);
   if (arguments.json || arguments.format == "json") {
-    print(bench::gate_json(request, cases, *result, *recorded));
+    print(bench::gate_json(request, cases, *result, recorded ? *recorded : std::string()));
   } else if (arguments.format == "markdown") {
     print(bench::gate_markdown(request, cases, *result));
   } else {
@@ -141,6 +141,7 @@ int run_comparison(const GateArguments& arguments, const bench::GateCases& cases
     const auto error = write_file(*arguments.junit, bench::gate_junit(cases, *result));
     if (error) return fail(kBadUsage, error->message());
   }
+  if (!recorded) return fail(recorded.error());
   return exit_code(result->verdict);
 }
 

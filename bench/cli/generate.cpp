@@ -130,8 +130,9 @@ int run_generate(const GenerateArguments& arguments) {
     json["files"] = std::move(written);
     print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else {
-    print(fmt::format("{} instances of {} robots on {} in {}\nsweep them: sipplab bench --instances {}\n",
-                      arguments.count, arguments.agents, arguments.map, arguments.folder, arguments.folder));
+    print(fmt::format("{} instance{} of {} robot{} on {} in {}\nsweep them: sipplab bench --instances {}\n",
+                      arguments.count, arguments.count == 1 ? "" : "s", arguments.agents,
+                      arguments.agents == 1 ? "" : "s", arguments.map, arguments.folder, arguments.folder));
   }
   return kSuccess;
 }

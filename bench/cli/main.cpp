@@ -71,6 +71,9 @@ int parse_and_run(int argc, char** argv) {
       add_reproduce_command(program, invocation_of(argc, argv)),
   };
   refuse_false_counts(program);
+  if (const std::string error = empty_element_error(program, argc, argv); !error.empty()) {
+    return fail(kBadUsage, "sipplab: " + error + "; see " + help_command(program));
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -89,8 +92,8 @@ int parse_and_run(int argc, char** argv) {
     return fail(kBadUsage,
                 "sipplab: a flag with a value that is none of true and false; see " + help_command(program));
   }
-  if (const std::string clash = overwrite_error(program); !clash.empty()) {
-    return fail(kBadUsage, "sipplab: " + clash + "; see " + help_command(program));
+  for (const std::string& error : {idle_flag_error(program), overwrite_error(program)}) {
+    if (!error.empty()) return fail(kBadUsage, "sipplab: " + error + "; see " + help_command(program));
   }
   for (const Command& command : commands) {
     if (command.arguments->parsed()) return command.run();

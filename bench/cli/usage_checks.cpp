@@ -23,6 +23,10 @@ constexpr std::string_view kHistory = "db";
 /// Of Google Benchmark, which parses it itself.
 constexpr std::string_view kBenchmarkOut = "--benchmark_out=";
 
+/// Flags that say how plans are improved, and those that ask for it.
+constexpr std::string_view kOfImprovement[] = {"objective", "threads"};
+constexpr std::string_view kImproving[] = {"improve", "best"};
+
 struct NamedFile {
   std::string option;  ///< "--svg"
   fs::path path;
@@ -39,6 +43,15 @@ std::string check_count(const std::string& text) {
 bool has_name(const CLI::Option& option, std::string_view name) {
   const std::vector<std::string>& names = option.get_lnames();
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether an option of this name takes a list, in any command.
+bool takes_list(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw("--" + name);
+  if (option != nullptr && option->get_delimiter() == ',') return true;
+  const auto commands = command.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(commands.begin(), commands.end(),
+                     [&name](const CLI::App* one) { return takes_list(*one, name); });
 }
 
 /// The files that the commands on the line name.
@@ -90,6 +103,26 @@ void refuse_false_counts(CLI::App& program) {
   }
 }
 
+std::string empty_element_error(const CLI::App& program, int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.rfind("--", 0) != 0) continue;
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(2, equals == std::string::npos ? equals : equals - 2);
+    if (name.empty() || !takes_list(program, name)) continue;
+    std::string list;
+    if (equals != std::string::npos) {
+      list = argument.substr(equals + 1);
+    } else if (i + 1 < argc) {
+      list = argv[i + 1];
+    }
+    const bool has_empty =
+        !list.empty() && (list.front() == ',' || list.back() == ',' || list.find(",,") != std::string::npos);
+    if (has_empty) return "--" + name + ": " + in_quotes(list) + ", expected something between the commas";
+  }
+  return "";
+}
+
 std::string overwrite_error(const CLI::App& program) {
   std::vector<NamedFile> files;
   bool has_history = false;
@@ -103,6 +136,24 @@ std::string overwrite_error(const CLI::App& program) {
       return files[i].option + " " + files[i].path.string() + " would overwrite " + files[k].option +
              ", expected a file of its own";
     }
+  }
+  return "";
+}
+
+std::string idle_flag_error(const CLI::App& program) {
+  const auto is_given = [&program](std::string_view name) {
+    const CLI::Option* option = program.get_option_no_throw("--" + std::string(name));
+    return option != nullptr && option->count() > 0;
+  };
+  const bool improves = std::any_of(std::begin(kImproving), std::end(kImproving), is_given);
+  for (const std::string_view flag : kOfImprovement) {
+    if (is_given(flag) && !improves) {
+      return "--" + std::string(flag) +
+             " says how a plan is improved, expected --improve or --best beside it";
+    }
+  }
+  for (const CLI::App* command : program.get_subcommands()) {
+    if (std::string error = idle_flag_error(*command); !error.empty()) return error;
   }
   return "";
 }

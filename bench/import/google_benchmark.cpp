@@ -13,6 +13,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
+#include <tuple>
 
 #include "bench/sweep/run_info.hpp"
 
@@ -84,20 +86,34 @@ std::optional<double> nanoseconds_per(const std::string& unit) {
 
 /// "2026-01-31T12:00:00+01:00" as the history writes times; empty where it is none.
 std::string utc_of(const std::string& date) {
+  constexpr int kHoursOfDay = 24;
+  constexpr int kMinutesOfHour = 60;
+  constexpr std::size_t kLongest = std::string_view("2026-01-31T12:00:00+01:00").size();
   std::tm local = {};
-  char sign = '+';
+  char sign = 'Z';
   int hours = 0;
   int minutes = 0;
-  const int fields =
-      std::sscanf(date.c_str(), "%d-%d-%dT%d:%d:%d%c%d:%d", &local.tm_year, &local.tm_mon, &local.tm_mday,
-                  &local.tm_hour, &local.tm_min, &local.tm_sec, &sign, &hours, &minutes);
-  if (fields < 6) return "";
+  const int fields = date.size() > kLongest
+                         ? 0
+                         : std::sscanf(date.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d%c%2d:%2d", &local.tm_year,
+                                       &local.tm_mon, &local.tm_mday, &local.tm_hour, &local.tm_min,
+                                       &local.tm_sec, &sign, &hours, &minutes);
+  const bool is_local = fields == 9 && (sign == '+' || sign == '-') && hours >= 0 && hours < kHoursOfDay &&
+                        minutes >= 0 && minutes < kMinutesOfHour;
+  if (!is_local && !(fields == 6 || (fields == 7 && sign == 'Z'))) return "";
   local.tm_year -= 1900;
   local.tm_mon -= 1;
-  const int offset_s = fields == 9 ? (sign == '-' ? -1 : 1) * (hours * 3600 + minutes * 60) : 0;
-  const std::time_t moment = timegm(&local) - offset_s;
+  const std::tm given = local;
+  const std::time_t moment = timegm(&local);
+  // The library counts on from the 31st of April to the 1st of May, and so on.
+  const auto fields_of = [](const std::tm& time) {
+    return std::tie(time.tm_year, time.tm_mon, time.tm_mday, time.tm_hour, time.tm_min, time.tm_sec);
+  };
+  if (fields_of(local) != fields_of(given)) return "";
+  const std::time_t offset_s = kMinutesOfHour * (hours * kMinutesOfHour + minutes);
+  const std::time_t utc_moment = sign == '-' ? moment + offset_s : moment - offset_s;
   std::tm utc = {};
-  if (gmtime_r(&moment, &utc) == nullptr) return "";
+  if (gmtime_r(&utc_moment, &utc) == nullptr) return "";
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.000Z", utc.tm_year + 1900, utc.tm_mon + 1,
                      utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
 }

@@ -181,6 +181,8 @@ refused 'tolerance' gate --tolerance nan
 refused 'min-effect' trend success --min-effect nan --db history.db
 refused 'seconds' fuzz run --seconds nan
 refused 'weight' bench --suite smoke --weight 1,nan --db history.db
+refused "ssi: '5,,9', expected something" plan --instance warehouse/0.xml --ssi 5,,9
+refused "robots: '8,', expected something" bench --map empty:9x9 --robots=8, --db history.db
 refused 'ssi.*1e\+07' plan --instance warehouse/0.xml --ssi 1e8
 refused 'agents.*-1' generate --map empty:9x9 --agents -1 -o too_many
 refused 'agents' generate --map empty:9x9 --agents 99999999999999999999 -o too_many

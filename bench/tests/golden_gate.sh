@@ -41,6 +41,16 @@ says '"verdict": "equivalent"'
 says '"calibrations": 1'
 says '"differing": 0'
 
+# A history that takes no verdict: it is said all the same.
+cp gate.db full.db
+sqlite3 full.db "CREATE TRIGGER full BEFORE INSERT ON gate_run BEGIN SELECT RAISE(ABORT, 'no room'); END"
+refused_after_all() { "$sipplab" "$@" >out 2>err && complain "exit code 0 though nothing was recorded"; }
+refused_after_all gate --base . --head ./sipplab --db full.db --pair-seconds 0.01 --fewest-rounds 1 --timed-only --pairs 5 --json --junit full.xml
+says '"verdict": "equivalent"'
+says '"gate_run": ""'
+says 'no room' err
+[ -s full.xml ] || complain "no JUnit file where the history took no verdict"
+
 # A slowdown that no noise hides; only the head is given it.
 SIPPLAB_INJECT_SLOWDOWN=1 expect 1 "${gate[@]}" --treat-as-different --pairs 8 --format markdown --junit gate.xml
 says '^### Gate: regressed: slower by'

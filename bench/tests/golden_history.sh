@@ -152,6 +152,14 @@ equal "$(ask "SELECT error, real_time_ns IS NULL FROM v_measurements WHERE bench
   'skipped: no GPU here|1' "what was skipped took no time"
 equal "$(ask "SELECT started_utc || counters FROM v_measurements WHERE benchmark = 'sort/8' AND repetition = 0")" \
   '2026-01-31T12:00:00.000Z{"items":8.0}' "imported time and counters"
+for date in 2026-04-31T12:00:00+01:00 2026-01-31T25:00:00+01:00 2026-01-31T12:00:00+01:75 2026-01-31T12:00:00x01:00 yesterday; do
+  sed "s/2026-01-31T13:00:00+01:00/$date/" report.json >dated.json
+  refused '^dated.json:1: no date' import google-benchmark dated.json
+done
+sed 's/2026-01-31T13:00:00+01:00/2026-03-01T00:30:00Z/; s/elsewhere/in UTC/' report.json >dated.json
+expect 0 import google-benchmark dated.json --commit 0123456789abcdef
+equal "$(ask "SELECT DISTINCT v_measurements.started_utc FROM v_measurements JOIN run ON run.uuid = run WHERE host = 'in UTC'")" \
+  '2026-03-01T00:30:00.000Z' "a date in UTC"
 printf '{"context": {}\n, "benchmarks": [' >cut.json
 refused '^cut.json:2: not JSON' import google-benchmark cut.json
 echo '{"context": {}, "benchmarks": [{"name": "a", "real_time": 1e400}]}' >large.json

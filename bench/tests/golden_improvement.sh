@@ -47,6 +47,8 @@ refused "'5,x'|'x'" plan --instance crowd/0.xml --ssi 5,x
 refused 'seconds > 0' plan --instance crowd/0.xml --improve 0
 refused 'iterations > 0' plan --instance crowd/0.xml --improve 1.5i
 refused 'flowtime, makespan' plan --instance crowd/0.xml --improve 5i --objective 0:0
+refused 'objective.*--improve or --best' plan --instance crowd/0.xml --objective makespan
+refused 'threads.*--improve or --best' bench --instances crowd --threads 2
 
 # --- improvement ----------------------------------------------------------------------
 

@@ -16,6 +16,7 @@ struct Version {
   std::string host = "host";
   int instances = 10;
   std::string planner = "aa-sipp";
+  double time_limit_s = 300;
 };
 
 /// Hashes that sort the other way round than the numbers.

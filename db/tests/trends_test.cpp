@@ -151,6 +151,22 @@ TEST_F(Trends, planners_are_told_apart) {
   EXPECT_EQ(trend("success", filter).size(), 1U);
 }
 
+TEST_F(Trends, cases_that_differ_in_limits_alone_are_named_apart) {
+  for (const double limit_s : {300.0, 60.0, kNoTimeLimit}) {
+    record_version(file, {1, 1, 8, false, "host", 10, "aa-sipp", limit_s}, 64);
+  }
+  record_version(file, {1, 1, 8}, 128);
+  const auto series = trend("success");
+  ASSERT_EQ(series.size(), 4U);
+  std::string labels;
+  for (const TrendSeries& one : series) labels += one.label + "\n";
+  for (const char* ending :
+       {"any-angle-4, at most 300 s\n", ", at most 60 s\n", ", no time limit\n", "128 robots, "}) {
+    EXPECT_NE(labels.find(ending), std::string::npos) << labels;
+  }
+  EXPECT_EQ(series.back().label.find("300 s"), std::string::npos) << "one of its kind: " << labels;
+}
+
 TEST_F(Trends, cases_are_filtered_by_what_they_are) {
   record_version(file, {1, 1, 8}, 64);
   record_version(file, {1, 1, 8}, 128);

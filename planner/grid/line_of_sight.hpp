@@ -26,8 +26,8 @@ CellRun swept_run(Cell displacement, double radius, std::int32_t row);
 class SweptRuns {
  public:
   /// Displacements longer than this many cells in either direction are made anew each
-  /// time: they are rare, and the table must stay small (some 30 MiB where a map is as large
-  /// and all are asked for).
+  /// time: they are rare, and the table must stay small (where all are asked for, 28 MiB for a
+  /// radius of 0.5 and 64 MiB for the largest).
   static constexpr std::int32_t kLongestKept = 192;
 
   /// `reach`: rows above and below the way that the disk can overlap. `longest`: no displacement
