@@ -19,17 +19,10 @@ constexpr std::uint64_t kExpansionsPerClockCheck = 64;
 }  // namespace
 
 SippSearch::SippSearch(const Instance& instance, SippOptions options)
-    : instance_(instance), options_(options), cell_nodes_(instance.map.cell_count()) {
-  for (const Agent& agent : instance.agents) {
-    const auto known = std::find_if(lines_of_sight_.begin(), lines_of_sight_.end(), [&](const auto& other) {
-      return other->radius_cells() == agent.radius_cells;
-    });
-    radius_of_.push_back(static_cast<std::size_t>(known - lines_of_sight_.begin()));
-    if (known != lines_of_sight_.end()) continue;
-    lines_of_sight_.push_back(std::make_unique<LineOfSight>(instance.map, agent.radius_cells));
-    step_tables_.push_back(std::make_unique<StepTable>(*lines_of_sight_.back(), instance.map.cell_count(),
-                                                       options.connectedness));
-  }
+    : instance_(instance),
+      options_(options),
+      bodies_(bodies_of(instance, options.connectedness)),
+      cell_nodes_(instance.map.cell_count()) {
   for (const Cell step : neighbourhood(options.connectedness)) step_lengths_.push_back(norm(centre(step)));
 }
 
@@ -89,8 +82,7 @@ double SippSearch::lower_bound_s(AgentIndex agent) const {
 
 void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
   agent_ = &instance_.agents[agent];
-  line_of_sight_ = lines_of_sight_[radius_of_[agent]].get();
-  steps_ = step_tables_[radius_of_[agent]].get();
+  body_ = &bodies_.at(agent_->radius_cells);
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
@@ -139,12 +131,12 @@ void SippSearch::expand(NodeId id, SearchStatistics& statistics) {
   const Cell here = nodes_[id].cell;
   const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
   const std::span<const Cell> steps = neighbourhood(options_.connectedness);
-  std::uint32_t clear = steps_->clear_steps(here, instance_.map.index(here));
+  std::uint32_t clear = body_->steps.clear_steps(here, instance_.map.index(here));
   for (; clear != 0; clear &= clear - 1) {
     const auto step = static_cast<std::size_t>(std::countr_zero(clear));
     const Cell cell{here.x + steps[step].x, here.y + steps[step].y};
     const bool straight = parent != kNoNode && nodes_[parent].cell != cell &&
-                          line_of_sight_->is_clear(nodes_[parent].cell, cell);
+                          body_->line_of_sight.is_clear(nodes_[parent].cell, cell);
     offer(id, straight ? parent : kNoNode, cell, step_lengths_[step] / agent_->speed_cells_per_s, statistics);
   }
 }
@@ -254,7 +246,7 @@ bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   const SippNode& origin = nodes_[id];
   const NodeId goal_id = nodes_of(agent_->goal).last - 1;
   SippNode& goal = nodes_[goal_id];
-  if (origin.cell == agent_->goal || !line_of_sight_->is_clear(origin.cell, agent_->goal)) return false;
+  if (origin.cell == agent_->goal || !body_->line_of_sight.is_clear(origin.cell, agent_->goal)) return false;
   const Move move(Displacement(centre(origin.cell), centre(agent_->goal)), agent_->speed_cells_per_s);
   const double departure_s = std::max(origin.arrival_s, goal.interval.begin_s - move.duration);
   if (departure_s > origin.interval.end_s) return false;

@@ -2,11 +2,9 @@
 // [YA17]: Yakovlev and Andreychuk, ICAPS 2017, algorithm AA-SIPP.
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "planner/grid/line_of_sight.hpp"
-#include "planner/grid/step_table.hpp"
+#include "planner/search/body.hpp"
 #include "planner/search/open_list.hpp"
 #include "planner/search/single_agent_planner.hpp"
 #include "planner/search/sipp_node.hpp"
@@ -101,16 +99,12 @@ class SippSearch final : public SingleAgentPlanner {
 
   const Instance& instance_;
   SippOptions options_;
-  std::vector<std::unique_ptr<LineOfSight>> lines_of_sight_;  ///< one for each radius
-  std::vector<std::unique_ptr<StepTable>> step_tables_;       ///< one for each radius
-  std::vector<std::size_t> radius_of_;                        ///< by agent, into these two
-
+  Bodies bodies_;
   std::vector<double> step_lengths_;  ///< in cells, by step of the neighbourhood
 
   // The search under way.
   const Agent* agent_ = nullptr;
-  const LineOfSight* line_of_sight_ = nullptr;
-  StepTable* steps_ = nullptr;
+  Body* body_ = nullptr;
   ReservationTable* reservations_ = nullptr;
   std::uint32_t search_ = 0;
   std::vector<CellNodes> cell_nodes_;

@@ -44,11 +44,10 @@ struct Bound {
 }  // namespace
 
 TurningSearch::TurningSearch(const Instance& instance, TurningOptions options)
-    : instance_(instance), options_(options), cell_stays_(instance.map.cell_count()) {
-  for (const Agent& agent : instance.agents) {
-    bodies_.try_emplace(agent.radius_cells, instance.map, agent.radius_cells, options.connectedness);
-  }
-}
+    : instance_(instance),
+      options_(options),
+      bodies_(bodies_of(instance, options.connectedness)),
+      cell_stays_(instance.map.cell_count()) {}
 
 double TurningSearch::lower_bound_s(AgentIndex agent) const {
   const Agent& asked = instance_.agents[agent];

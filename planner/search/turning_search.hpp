@@ -2,12 +2,10 @@
 // room than its body needs. Follows [YA17], section 3, on (x, y, heading).
 #pragma once
 
-#include <map>
 #include <vector>
 
-#include "planner/grid/line_of_sight.hpp"
-#include "planner/grid/step_table.hpp"
 #include "planner/instance/motion_rules.hpp"
+#include "planner/search/body.hpp"
 #include "planner/search/open_list.hpp"
 #include "planner/search/single_agent_planner.hpp"
 #include "planner/search/sipp_node.hpp"
@@ -67,14 +65,6 @@ class TurningSearch final : public SingleAgentPlanner {
     std::uint32_t first = 0;
     std::uint32_t last = 0;  ///< one past
   };
-  /// What depends on the radius alone.
-  struct Body {
-    Body(const GridMap& map, double radius_cells, int connectedness)
-        : line_of_sight(map, radius_cells), steps(line_of_sight, map.cell_count(), connectedness) {}
-    LineOfSight line_of_sight;
-    StepTable steps;
-  };
-
   void begin(const Agent& agent, ReservationTable& reservations);
   CellStays stays_of(Cell cell);
   double turn_s(double from_deg, double to_deg) const;
@@ -97,7 +87,7 @@ class TurningSearch final : public SingleAgentPlanner {
 
   const Instance& instance_;
   TurningOptions options_;
-  std::map<double, Body> bodies_;  ///< by radius
+  Bodies bodies_;
 
   // The search under way.
   const Agent* agent_ = nullptr;
