@@ -138,7 +138,12 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   const Arrival eager = search(plan_case, agent, traffic, options);
   options.indexed_reservations = false;
   const Arrival plain = search(plan_case, agent, traffic, options);
-  for (const Arrival& twin : {eager, plain}) {
+  options = {};
+  options.connectedness = plan_case.options.connectedness;
+  options.any_angle = false;
+  options.detours = false;
+  const Arrival straight = search(plan_case, agent, traffic, options);
+  for (const Arrival& twin : {eager, plain, straight}) {
     require_twins(twin.found == grid.found, "found by one twin only");
     require_twins(!grid.found || std::abs(twin.arrival_s - grid.arrival_s) <= kArrivalS, "another arrival");
   }

@@ -14,6 +14,7 @@
 #include "planner/generator/generator.hpp"
 #include "planner/geometry/collision_interval.hpp"
 #include "planner/grid/line_of_sight.hpp"
+#include "planner/grid/static_distances.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/reservation/reservation_table.hpp"
 #include "planner/search/sipp_search.hpp"
@@ -180,9 +181,26 @@ void earliest_departure(benchmark::State& state) {
 }
 BENCHMARK(earliest_departure)->Name("reservation/earliest_departure")->ArgName("plain")->Arg(0)->Arg(1);
 
+/// One goal and one cell after the other, whose ways are long: nothing is known of the goal yet.
+void static_detour(benchmark::State& state) {
+  const GridMap map = warehouse_map();
+  const LineOfSight lines(map, kDefaultRadiusCells);
+  constexpr int kOctile = 3;
+  StepTable steps(lines, map.cell_count(), kOctile);
+  const std::vector<MovePair> moves = random_moves(map, lines);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto iteration : state) {
+    StaticDistances distances(map, lines, steps, kOctile);
+    const MovePair& ends = moves[next++ % kInputs];
+    distances.set_goal(ends.to, ends.from);
+    benchmark::DoNotOptimize(distances.detour_cells(ends.from));
+  }
+}
+BENCHMARK(static_detour)->Name("grid/static_detour");
+
 void search_once(benchmark::State& state, const Instance& instance, AgentIndex agent,
-                 ReservationTable& reservations) {
-  SippSearch search(instance, SippOptions{});
+                 ReservationTable& reservations, const SippOptions& options = {}) {
+  SippSearch search(instance, options);
   SearchStatistics statistics;
   for ([[maybe_unused]] auto iteration : state) {
     const auto trajectory = search.plan(agent, reservations, SearchLimits{}, statistics);
@@ -202,12 +220,20 @@ void search_in_an_empty_world(benchmark::State& state) {
 }
 BENCHMARK(search_in_an_empty_world)->Name("search/empty")->Unit(benchmark::kMicrosecond);
 
+/// Argument: 1 with the map's detours in the heuristic, 0 for the plain twin.
 void search_in_a_crowd(benchmark::State& state) {
   Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
-  search_once(state, crowd.instance, crowd.left_out, crowd.reservations);
+  SippOptions options;
+  options.detours = state.range(0) != 0;
+  search_once(state, crowd.instance, crowd.left_out, crowd.reservations, options);
 }
-BENCHMARK(search_in_a_crowd)->Name("search/crowded")->Unit(benchmark::kMicrosecond);
+BENCHMARK(search_in_a_crowd)
+    ->Name("search/crowded")
+    ->ArgName("detours")
+    ->Arg(1)
+    ->Arg(0)
+    ->Unit(benchmark::kMicrosecond);
 
 void validate_a_plan(benchmark::State& state) {
   const Crowd& crowd = the_crowd();

@@ -124,24 +124,15 @@ LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
   }
 }
 
-bool LineOfSight::is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const {
-  const auto stride = static_cast<std::size_t>(width_) + 1;
-  const std::int32_t* above = &summed_[static_cast<std::size_t>(y0) * stride];
-  const std::int32_t* below = &summed_[(static_cast<std::size_t>(y1) + 1) * stride];
-  return below[x1 + 1] - below[x0] - above[x1 + 1] + above[x0] != 0;
-}
-
 bool LineOfSight::is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const {
   const std::int32_t* row = &in_row_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1)];
   return row[x1 + 1] != row[x0];
 }
 
 bool LineOfSight::is_clear(Cell from, Cell to) const {
-  PLANNER_ASSERT(is_legal(from) && is_legal(to));
-  // Both ends lie inside the grid and so does all between them: the swept area is convex.
+  if (is_open_between(from, to)) return true;
   const auto [left, right] = std::minmax({from.x, to.x});
   const auto [top, bottom] = std::minmax({from.y, to.y});
-  if (!is_blocked_in(left - reach_, right + reach_, top - reach_, bottom + reach_)) return true;
   // The runs are those of a way to the right and downwards: mirror what they mean.
   const std::int32_t down = to.y < from.y ? -1 : 1;
   const bool to_the_right = to.x >= from.x;

@@ -2,11 +2,13 @@
 // inside of a blocked cell: "line of sight for a disk".
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "planner/core/assert.hpp"
 #include "planner/grid/grid_map.hpp"
 
 namespace sipplab {
@@ -74,6 +76,15 @@ class LineOfSight {
   /// rectangle around the move holds no blocked cell.
   bool is_clear(Cell from, Cell to) const;
 
+  /// Whether the disk can move anywhere in the rectangle between the two cells: more than is_clear()
+  /// says. REQUIRES: is_legal(from) and is_legal(to). O(1).
+  bool is_open_between(Cell from, Cell to) const {
+    PLANNER_ASSERT(is_legal(from) && is_legal(to));
+    // Both ends lie inside the grid and so does all between them: the rectangle is convex.
+    return !is_blocked_in(std::min(from.x, to.x) - reach_, std::max(from.x, to.x) + reach_,
+                          std::min(from.y, to.y) - reach_, std::max(from.y, to.y) + reach_);
+  }
+
   double radius_cells() const { return radius_; }
 
  private:
@@ -86,7 +97,12 @@ class LineOfSight {
   }
   /// Whether columns x0..x1 of rows y0..y1, all included and inside the grid, hold a
   /// blocked cell.
-  bool is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const;
+  bool is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const {
+    const auto stride = static_cast<std::size_t>(width_) + 1;
+    const std::int32_t* above = &summed_[static_cast<std::size_t>(y0) * stride];
+    const std::int32_t* below = &summed_[(static_cast<std::size_t>(y1) + 1) * stride];
+    return below[x1 + 1] - below[x0] - above[x1 + 1] + above[x0] != 0;
+  }
   bool is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const;
 
   std::int32_t width_;

@@ -1,32 +1,79 @@
 // What a search knows of a robot's radius alone, on one map.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "planner/grid/line_of_sight.hpp"
+#include "planner/grid/neighbourhood.hpp"
+#include "planner/grid/static_distances.hpp"
 #include "planner/grid/step_table.hpp"
 #include "planner/instance/instance.hpp"
 
 namespace sipplab {
 
-struct Body {
-  Body(const GridMap& map, double radius_cells, int connectedness)
-      : line_of_sight(map, radius_cells), steps(line_of_sight, map.cell_count(), connectedness) {}
-  Body(const Body&) = delete;  // its table knows where its line of sight is
+/// Which steps and ways a search is about.
+struct BodyOptions {
+  bool any_angle = true;
+  int connectedness = 2;  ///< 2^k neighbours
+  bool detours = true;    ///< whether detour_cells() will be asked
+};
+
+class Body {
+ public:
+  /// The map must outlive the body. O(cells).
+  Body(const GridMap& map, double radius_cells, BodyOptions options)
+      : line_of_sight(map, radius_cells),
+        own_steps_(static_cast<std::uint32_t>(
+            (std::uint64_t{1} << neighbourhood(options.connectedness).size()) - 1)),
+        steps_(line_of_sight, map.cell_count(), static_connectedness(options)),
+        distances_(map, line_of_sight, steps_, static_connectedness(options)),
+        detour_share_(options.any_angle ? 1 / kMostOctile : 1) {}
+  Body(const Body&) = delete;  // its parts know where the others are
   Body& operator=(const Body&) = delete;
 
-  LineOfSight line_of_sight;
-  StepTable steps;
+  /// Bit i is set where step i of the neighbourhood leads to a legal cell in line of sight. REQUIRES: the
+  /// cell is legal; `index` is its row-major index.
+  std::uint32_t clear_steps(Cell cell, std::size_t index) {
+    return steps_.clear_steps(cell, index) & own_steps_;
+  }
+
+  /// As of StaticDistances.
+  void set_goal(Cell goal, Cell start) { distances_.set_goal(goal, start); }
+
+  /// What the map's obstacles add to the robot's way from the cell to its goal, in cells. Straight distance
+  /// plus detour is never more than the shortest way by steps. REQUIRES: options.detours.
+  double detour_cells(Cell cell) { return detour_share_ * distances_.detour_cells(cell); }
+
+  const LineOfSight line_of_sight;
+
+ private:
+  static constexpr int kOctile = 3;
+  /// Length of an octile way for each cell of a straight one, at most: 1 / cos(22.5 degrees). By as much
+  /// a detour by any angle may be shorter.
+  static constexpr double kMostOctile = 1.0823922002923940;
+
+  /// Octile ways come nearer to those by any angle than Manhattan ones, and are never longer.
+  static int static_connectedness(BodyOptions options) {
+    return options.any_angle && options.detours ? std::max(options.connectedness, kOctile)
+                                                : options.connectedness;
+  }
+
+  std::uint32_t own_steps_;
+  StepTable steps_;  ///< of own_steps_, and more where octile distances ask for them
+  StaticDistances distances_;
+  double detour_share_;
 };
 
 /// By radius.
 using Bodies = std::map<double, Body>;
 
 /// One for each radius of the instance, which must outlive them. O(radii * cells).
-inline Bodies bodies_of(const Instance& instance, int connectedness) {
+inline Bodies bodies_of(const Instance& instance, BodyOptions options) {
   Bodies bodies;
   for (const Agent& agent : instance.agents) {
-    bodies.try_emplace(agent.radius_cells, instance.map, agent.radius_cells, connectedness);
+    bodies.try_emplace(agent.radius_cells, instance.map, agent.radius_cells, options);
   }
   return bodies;
 }

@@ -21,7 +21,7 @@ constexpr std::uint64_t kExpansionsPerClockCheck = 64;
 SippSearch::SippSearch(const Instance& instance, SippOptions options)
     : instance_(instance),
       options_(options),
-      bodies_(bodies_of(instance, options.connectedness)),
+      bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.detours})),
       cell_nodes_(instance.map.cell_count()) {
   for (const Cell step : neighbourhood(options.connectedness)) step_lengths_.push_back(norm(centre(step)));
 }
@@ -83,12 +83,13 @@ double SippSearch::lower_bound_s(AgentIndex agent) const {
 void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
   agent_ = &instance_.agents[agent];
   body_ = &bodies_.at(agent_->radius_cells);
+  if (options_.detours) body_->set_goal(agent_->goal, agent_->start);
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
   straight_ways_.clear();
   shot_blocker_ = ReservationTable::kNoDisk;
-  open_.begin(options_.weight * lower_bound_s(agent), kBucketCells / agent_->speed_cells_per_s);
+  open_.begin(options_.weight * heuristic_s(agent_->start), kBucketCells / agent_->speed_cells_per_s);
 }
 
 SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
@@ -96,7 +97,7 @@ SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
   if (nodes.search != search_) {
     nodes.search = search_;
     nodes.first = static_cast<NodeId>(nodes_.size());
-    const double to_goal_s = options_.weight * lower_bound_s(cell, agent_->goal);
+    const double to_goal_s = options_.weight * heuristic_s(cell);
     for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
       nodes_.push_back({interval, kForever, 0, to_goal_s, cell, kNoNode});
     }
@@ -104,6 +105,13 @@ SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
     nodes.last = static_cast<NodeId>(nodes_.size());
   }
   return nodes;
+}
+
+double SippSearch::heuristic_s(Cell cell) {
+  const double line_s = lower_bound_s(cell, agent_->goal);
+  // The start is expanded first whatever it says, and is often the only one.
+  if (!options_.detours || cell == agent_->start) return line_s;
+  return line_s + body_->detour_cells(cell) / agent_->speed_cells_per_s;
 }
 
 double SippSearch::lower_bound_s(Cell from, Cell to) const {
@@ -131,7 +139,7 @@ void SippSearch::expand(NodeId id, SearchStatistics& statistics) {
   const Cell here = nodes_[id].cell;
   const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
   const std::span<const Cell> steps = neighbourhood(options_.connectedness);
-  std::uint32_t clear = body_->steps.clear_steps(here, instance_.map.index(here));
+  std::uint32_t clear = body_->clear_steps(here, instance_.map.index(here));
   for (; clear != 0; clear &= clear - 1) {
     const auto step = static_cast<std::size_t>(std::countr_zero(clear));
     const Cell cell{here.x + steps[step].x, here.y + steps[step].y};

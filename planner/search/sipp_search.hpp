@@ -20,6 +20,9 @@ struct SippOptions {
   /// least f is expanded first; with more, nodes nearer to the goal are: fewer expansions, and
   /// an arrival that is at most so many times as late as the earliest one by steps alone.
   double weight = 1;
+  /// Add to the heuristic what the map's obstacles add to a robot's way by steps, were it alone: no way by
+  /// steps takes less, but some any-angle way may. Off: the plain bound, as on an empty map.
+  bool detours = true;
   /// Try the straight way to the goal from each expanded node, departing at once, or so late
   /// that the goal is free for good on arrival: no node of OPEN promises an earlier one (with a
   /// weight, one that is earlier by more than that factor), and the search ends. Any-angle only, where the
@@ -65,6 +68,8 @@ class SippSearch final : public SingleAgentPlanner {
   void begin(AgentIndex agent, ReservationTable& reservations);
   CellNodes nodes_of(Cell cell);
   double lower_bound_s(Cell from, Cell to) const;
+  /// At most what the way by steps from the cell to the goal takes; not weighted.
+  double heuristic_s(Cell cell);
   double travel_s(Cell from, Cell to) const;
   /// A lower bound on the arrival at the goal by way of the node, what is ahead weighted.
   static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }

@@ -46,7 +46,7 @@ struct Bound {
 TurningSearch::TurningSearch(const Instance& instance, TurningOptions options)
     : instance_(instance),
       options_(options),
-      bodies_(bodies_of(instance, options.connectedness)),
+      bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.detours})),
       cell_stays_(instance.map.cell_count()) {}
 
 double TurningSearch::lower_bound_s(AgentIndex agent) const {
@@ -88,6 +88,7 @@ Expected<Trajectory, PlanFailure> TurningSearch::plan(AgentIndex agent, Reservat
 void TurningSearch::begin(const Agent& agent, ReservationTable& reservations) {
   agent_ = &agent;
   body_ = &bodies_.at(agent.radius_cells);
+  if (options_.detours) body_->set_goal(agent.goal, agent.start);
   reservations_ = &reservations;
   ++search_;
   stays_.clear();
@@ -113,8 +114,10 @@ double TurningSearch::turn_s(double from_deg, double to_deg) const {
   return Bound{*agent_, options_}.turn_s(from_deg, to_deg);
 }
 
-double TurningSearch::to_goal_s(Cell cell, double heading_deg_now) const {
-  return Bound{*agent_, options_}(cell, heading_deg_now);
+double TurningSearch::to_goal_s(Cell cell, double heading_deg_now) {
+  const double alone_s = Bound{*agent_, options_}(cell, heading_deg_now);
+  if (!options_.detours) return alone_s;
+  return alone_s + body_->detour_cells(cell) / agent_->speed_cells_per_s;
 }
 
 bool TurningSearch::is_goal(const State& state) const {
@@ -126,7 +129,7 @@ void TurningSearch::expand(NodeId id, SearchStatistics& statistics) {
   const NodeId parent = options_.any_angle ? states_[id].parent : kNoNode;
   if (options_.any_angle) shoot(id, statistics);
   const std::span<const Cell> steps = neighbourhood(options_.connectedness);
-  std::uint32_t clear = body_->steps.clear_steps(here, instance_.map.index(here));
+  std::uint32_t clear = body_->clear_steps(here, instance_.map.index(here));
   for (; clear != 0; clear &= clear - 1) {
     const Cell step = steps[static_cast<std::size_t>(std::countr_zero(clear))];
     const Cell cell{here.x + step.x, here.y + step.y};

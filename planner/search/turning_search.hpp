@@ -18,7 +18,8 @@ struct TurningOptions {
   /// 2^k neighbours, k = 2..5.
   int connectedness = 2;
   MotionRules rules;
-  double weight = 1;  ///< of the heuristic, as in SippOptions
+  double weight = 1;    ///< of the heuristic, as in SippOptions
+  bool detours = true;  ///< as in SippOptions
 };
 
 /// A state is a cell, one of its safe intervals, the heading of arrival and the time of
@@ -68,8 +69,8 @@ class TurningSearch final : public SingleAgentPlanner {
   void begin(const Agent& agent, ReservationTable& reservations);
   CellStays stays_of(Cell cell);
   double turn_s(double from_deg, double to_deg) const;
-  /// A lower bound on the time from here to the end of the plan.
-  double to_goal_s(Cell cell, double heading_deg) const;
+  /// At most what a way by steps from here to the end of the plan takes; not weighted.
+  double to_goal_s(Cell cell, double heading_deg);
   bool is_goal(const State& state) const;
 
   void expand(NodeId id, SearchStatistics& statistics);

@@ -1,6 +1,6 @@
 // AA-SIPP against SIPP. Plans of AA-SIPP are not the shortest that there are, but each
 // node that SIPP comes to is offered to AA-SIPP no later, step by step, and its straight
-// ways only add to that: with a bound that never overestimates, no arrival is later.
+// ways only add to that: with a heuristic that no way by steps falls below, no arrival is later.
 #include <rapidcheck.h>
 
 #include <algorithm>
@@ -47,9 +47,10 @@ PlanCase any_world() {
 }
 
 Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, SearchStatistics& work,
-                                         const SearchLimits& limits = {}) {
+                                         const SearchLimits& limits = {}, bool detours = true) {
   SippOptions options;
   options.any_angle = any_angle;
+  options.detours = detours;
   options.connectedness = world.options.connectedness;
   ReservationTable reservations(world.instance.map, world.instance.agents[0].radius_cells);
   for (const DynamicObstacle& obstacle : world.instance.obstacles) {
@@ -90,20 +91,22 @@ int main() {
         }
       });
 
-  passed &= property("AA-SIPP arrives wherever SIPP does, and no later", [] {
-    bool both = false;
+  passed &= property("AA-SIPP arrives wherever SIPP does, and no later, by either heuristic", [] {
+    bool earlier = false;
     for (int i = 0; i < kWorldsPerCase; ++i) {
       const PlanCase world = any_world();
       note_case(world);
       SearchStatistics work;
       const auto stepwise = search(world, false, work);
       if (!stepwise) continue;
-      const auto any_angle = search(world, true, work);
-      RC_ASSERT(static_cast<bool>(any_angle));
-      RC_ASSERT(any_angle->arrival_s() <= stepwise->arrival_s() + kArrivalS);
-      both = both || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;
+      for (const bool detours : {true, false}) {
+        const auto any_angle = search(world, true, work, {}, detours);
+        RC_ASSERT(static_cast<bool>(any_angle));
+        RC_ASSERT(any_angle->arrival_s() <= stepwise->arrival_s() + kArrivalS);
+        earlier = earlier || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;
+      }
     }
-    RC_CLASSIFY(both, "some arrive earlier");
+    RC_CLASSIFY(earlier, "some arrive earlier");
   });
 
   passed &= property("whoever arrives within a latest arrival is found; nothing later is", [] {

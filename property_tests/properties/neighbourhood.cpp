@@ -1,4 +1,4 @@
-// Distances over the 2^k neighbourhoods against Dijkstra's algorithm on an empty grid.
+// Distances over the 2^k neighbourhoods against Dijkstra's algorithm, on an empty grid and among obstacles.
 #include "planner/grid/neighbourhood.hpp"
 
 #include <rapidcheck.h>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "planner/grid/grid_map.hpp"
+#include "planner/grid/static_distances.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
 #include "property_tests/support/property.hpp"
@@ -27,8 +28,9 @@ constexpr double kRoundingCells = 1e-9;
 constexpr std::int32_t kHalfSide = 16;
 constexpr std::int32_t kFarthest = 12;
 
-/// Lengths of shortest ways from the middle of a square grid.
-std::vector<double> shortest_ways(const GridMap& map, Cell from, int k) {
+/// Lengths of shortest ways from a cell over steps that `may_step(from, to)`; infinity where there is none.
+template <class MayStep>
+std::vector<double> shortest_ways(const GridMap& map, Cell from, int k, MayStep&& may_step) {
   std::vector<double> length(map.cell_count(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -41,7 +43,7 @@ std::vector<double> shortest_ways(const GridMap& map, Cell from, int k) {
     const Cell cell = map.cell(index);
     for (const Cell step : mediant_neighbourhood(k)) {
       const Cell next{cell.x + step.x, cell.y + step.y};
-      if (!map.contains(next)) continue;
+      if (!map.contains(next) || !may_step(cell, next)) continue;
       const double there = here + distance(cell, next);
       if (there >= length[map.index(next)]) continue;
       length[map.index(next)] = there;
@@ -55,9 +57,32 @@ std::vector<double> shortest_ways(const GridMap& map, Cell from, int k) {
 std::vector<std::vector<double>> shortest_ways_of_all(const GridMap& map, Cell from) {
   std::vector<std::vector<double>> ways(kMaxConnectedness + 1);
   for (int k = kMinConnectedness; k <= kMaxConnectedness; ++k) {
-    ways[static_cast<std::size_t>(k)] = shortest_ways(map, from, k);
+    ways[static_cast<std::size_t>(k)] = shortest_ways(map, from, k, [](Cell, Cell) { return true; });
   }
   return ways;
+}
+
+/// A small map with a wall here and there, for a disk that some of its cells have room for.
+struct Maze {
+  GridMap map{1, 1};
+  double radius = 0.5;
+  std::vector<Cell> legal;
+};
+
+Maze any_maze() {
+  Maze maze;
+  maze.map = GridMap(*rc::gen::inRange(1, 11), *rc::gen::inRange(1, 11));
+  maze.radius = *any_of({0.5, 0.5, 0.2, 0.4, 0.7, 1.0});
+  const std::size_t blocked = maze.map.cell_count() * *rc::gen::inRange(std::size_t{0}, std::size_t{5}) / 10;
+  for (std::size_t i = 0; i < blocked; ++i) {
+    maze.map.set_blocked(*any_cell(maze.map.width(), maze.map.height()), true);
+  }
+  const LineOfSight line_of_sight(maze.map, maze.radius);
+  for (std::size_t index = 0; index < maze.map.cell_count(); ++index) {
+    const Cell cell = maze.map.cell(index);
+    if (line_of_sight.is_legal(cell)) maze.legal.push_back(cell);
+  }
+  return maze;
 }
 
 Cell any_far_cell() {
@@ -86,6 +111,41 @@ int main() {
       RC_ASSERT(nearly(neighbourhood_distance(to, kMiddle, k), expected));
     }
   });
+
+  passed &=
+      property("detour_cells: what Dijkstra's algorithm finds among obstacles beyond the empty grid", [] {
+        const Maze maze = any_maze();
+        RC_PRE(!maze.legal.empty());
+        const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
+        const LineOfSight line_of_sight(maze.map, maze.radius);
+        StepTable steps(line_of_sight, maze.map.cell_count(), k);
+        StaticDistances distances(maze.map, line_of_sight, steps, k);
+        const auto may_step = [&](Cell from, Cell to) {
+          return line_of_sight.is_legal(to) && line_of_sight.is_clear(from, to);
+        };
+        const auto any_place = [&] { return *rc::gen::elementOf(maze.legal); };
+        // Some goals come again, with what is known of them.
+        const std::vector<Cell> goals{any_place(), any_place()};
+        bool longer = false;
+        for (int round = 0; round < 3; ++round) {
+          const Cell goal = *rc::gen::elementOf(goals);
+          const std::vector<double> ways = shortest_ways(maze.map, goal, k, may_step);
+          distances.set_goal(goal, any_place());
+          for (int i = 0; i < 5; ++i) {
+            const Cell cell = any_place();
+            const double way = ways[maze.map.index(cell)];
+            const double detour = distances.detour_cells(cell);
+            if (way == std::numeric_limits<double>::infinity()) {
+              RC_ASSERT(detour == way);
+            } else {
+              RC_ASSERT(nearly(neighbourhood_distance(cell, goal, k) + detour, way));
+              RC_ASSERT(detour == 0 || detour > kRoundingCells);
+              longer = longer || detour > 0;
+            }
+          }
+        }
+        RC_CLASSIFY(longer, "some detours");
+      });
 
   passed &= property("neighbourhood: each of the 2^k directions that halving sectors gives, once", [] {
     const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);

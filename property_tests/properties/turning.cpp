@@ -211,6 +211,25 @@ int main() {
     RC_ASSERT(std::abs(makespan_s(one.solution) - makespan_s(other.solution)) <= kRoundingS);
   });
 
+  passed &=
+      property("stepwise, with the map's detours in the heuristic and without it robots arrive together", [] {
+        PlanCase plan_case = *any_case();
+        plan_case.options.any_angle = false;
+        plan_case.options.rescheduling = Rescheduling::kNone;
+        plan_case.instance.agents.resize(std::min<std::size_t>(plan_case.instance.agents.size(), 1));
+        note_case(plan_case);
+        TurningOptions options{false, plan_case.options.connectedness, plan_case.options.rules};
+        TurningSearch with(plan_case.instance, options);
+        options.detours = false;
+        TurningSearch without(plan_case.instance, options);
+        const PlanResult one = plan_prioritized(plan_case.instance, plan_case.options, with);
+        const PlanResult other = plan_prioritized(plan_case.instance, plan_case.options, without);
+        RC_PRE(one.status != PlanStatus::kLimit && other.status != PlanStatus::kLimit);
+        RC_ASSERT(one.status == other.status);
+        RC_ASSERT(std::abs(makespan_s(one.solution) - makespan_s(other.solution)) <= kRoundingS);
+        RC_CLASSIFY(one.statistics.expansions < other.statistics.expansions, "with fewer expansions");
+      });
+
   passed &= property("the validator finds a turn that is too short, left out, or the wrong way", [] {
     const Planned planned = any_solved();
     const std::optional<Stop> stop = any_turn(planned.result.solution);

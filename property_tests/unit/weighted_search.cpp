@@ -1,8 +1,13 @@
-// What a weight of the heuristic buys and costs, in counts, on a map with room for detours.
+// What the heuristic's weight and its knowledge of the map buy and cost, in counts.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+
 #include "planner/generator/generator.hpp"
+#include "planner/grid/static_distances.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/search/sipp_search.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
@@ -29,6 +34,47 @@ TEST(WeightedSearch, ExpandsLessThanHalfForATenthMoreOfTheHeuristic) {
     ASSERT_EQ(weighted.status, PlanStatus::kSolved);
     EXPECT_LT(2 * weighted.statistics.expansions, plain.statistics.expansions) << "turns " << turns;
     EXPECT_LT(flowtime_s(weighted.solution), 1.02 * flowtime_s(plain.solution)) << "turns " << turns;
+  }
+}
+
+/// Robots in the aisles of a warehouse, whose ways bend around shelves.
+Instance warehouse_instance() {
+  GeneratorOptions options;
+  options.agents = 32;
+  const Expected<Instance, std::string> instance = generate_instance(warehouse_map(), options);
+  EXPECT_TRUE(instance.has_value());
+  return instance.has_value() ? *instance : Instance{};
+}
+
+TEST(Detours, ExpandAFifthLessBetweenShelves) {
+  const Instance instance = warehouse_instance();
+  PlanResult results[2];
+  for (const bool detours : {false, true}) {
+    SippOptions options;
+    options.detours = detours;
+    SippSearch search(instance, options);
+    results[detours] = plan_prioritized(instance, PlannerOptions{}, search);
+    ASSERT_EQ(results[detours].status, PlanStatus::kSolved);
+  }
+  EXPECT_LT(results[1].statistics.expansions, 0.8 * static_cast<double>(results[0].statistics.expansions));
+  EXPECT_LT(flowtime_s(results[1].solution), 1.01 * flowtime_s(results[0].solution));
+}
+
+TEST(Detours, AreFoundAgainWhereTheyWereForgotten) {
+  // 8 MB a goal: a dozen do not fit.
+  GridMap map(1024, 1024);
+  map.set_blocked({500, 2}, true);
+  const LineOfSight line_of_sight(map, 0.5);
+  StepTable steps(line_of_sight, map.cell_count(), 3);
+  StaticDistances distances(map, line_of_sight, steps, 3);
+  const std::int32_t goals =
+      static_cast<std::int32_t>(StaticDistances::kMostKeptBytes / map.cell_count() / 8) + 4;
+  for (int round = 0; round < 2; ++round) {
+    for (std::int32_t goal = 0; goal < goals; ++goal) {
+      distances.set_goal({501 + goal, 2}, {499, 2});
+      // One cell up, past the corner, and down again: aslant where there is room.
+      EXPECT_NEAR(distances.detour_cells({499, 2}), goal == 0 ? 2 : std::sqrt(2.0), 1e-9);
+    }
   }
 }
 
