@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/core/assert.hpp"
 #include "planner/geometry/collision_interval.hpp"
@@ -20,6 +21,16 @@ constexpr std::size_t kFirstPresences = 8;
 
 /// Bytes for each cell that are set aside at first.
 constexpr std::size_t kBytesPerCell = 256;
+
+/// End of a presence that does not end.
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+/// A float below x, or above, by one or two units in its last place. REQUIRES: finite.
+float at_most(double x) {
+  const auto near = static_cast<float>(x);
+  return near - std::abs(near) * std::numeric_limits<float>::epsilon();
+}
+float at_least(double x) { return -at_most(-x); }
 
 /// Half the side of a cell.
 constexpr double kHalfCell = 0.5;
@@ -94,7 +105,7 @@ void ReservationTable::for_each_cell_near(const MovingDisk& disk, Visitor&& visi
   }
 }
 
-const ReservationTable::Presence* ReservationTable::Timeline::first_after(double time_s) const {
+const ReservationTable::Presence* ReservationTable::Timeline::first_after(float time_s) const {
   const Presence* first = passing.data();
   // Halving without branches: which half is as good as random.
   for (std::size_t left = passing.size(); left > 0;) {
@@ -108,9 +119,8 @@ const ReservationTable::Presence* ReservationTable::Timeline::first_after(double
 
 void ReservationTable::Timeline::insert(const Presence& presence) {
   if (passing.capacity() == 0) passing.reserve(kFirstPresences);
-  auto place =
-      std::upper_bound(passing.begin(), passing.end(), presence.enter_s,
-                       [](double enter_s, const Presence& other) { return enter_s < other.enter_s; });
+  auto place = std::upper_bound(passing.begin(), passing.end(), presence.enter_s,
+                                [](float enter_s, const Presence& other) { return enter_s < other.enter_s; });
   place = passing.insert(place, presence);
   if (place != passing.begin()) {
     place->latest_exit_s = std::max(presence.exit_s, std::prev(place)->latest_exit_s);
@@ -121,7 +131,7 @@ void ReservationTable::Timeline::insert(const Presence& presence) {
 }
 
 void ReservationTable::Timeline::repair_from(std::pmr::vector<Presence>::iterator place) {
-  double latest_exit_s = place == passing.begin() ? -kForever : std::prev(place)->latest_exit_s;
+  float latest_exit_s = place == passing.begin() ? -kNever : std::prev(place)->latest_exit_s;
   for (; place != passing.end(); ++place) {
     latest_exit_s = std::max(latest_exit_s, place->exit_s);
     if (place->latest_exit_s == latest_exit_s) return;  // and all those behind it, too
@@ -147,7 +157,7 @@ ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
           widened(collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius)));
     }
     if (disk.end_s == kForever) {
-      timeline.resting.push_back({disk.begin_s, kForever, kForever, id});
+      timeline.resting.push_back({at_most(disk.begin_s), kNever, kNever, id});
       return;
     }
     double enter_s = disk.begin_s;
@@ -156,7 +166,8 @@ ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
       enter_s = disk.begin_s + near.begin / disk.speed;
       if (near.end < disk.way.length) exit_s = disk.begin_s + near.end / disk.speed;
     }
-    timeline.insert({enter_s, exit_s, exit_s, id});
+    const float latest_exit_s = at_least(exit_s);
+    timeline.insert({at_most(enter_s), latest_exit_s, latest_exit_s, id});
   });
   return id;
 }
@@ -228,8 +239,8 @@ double ReservationTable::next_departure(const Move& move, const CellVisit& visit
   const Timeline& timeline = timelines_[visit.cell];
   // Unsafe departures may reach a little beyond the time that is spent near a disk.
   const double margin_s = kNearMissCells * move.seconds_per_cell + time_margin_s_;
-  const double enter_s = departure_s + visit.enter_s - margin_s;
-  const double leave_s = departure_s + visit.leave_s + margin_s;
+  const float enter_s = at_most(departure_s + visit.enter_s - margin_s);
+  const float leave_s = at_least(departure_s + visit.leave_s + margin_s);
   const Presence* const end = timeline.passing.data() + timeline.passing.size();
   for (const Presence* presence = timeline.first_after(enter_s); presence != end; ++presence) {
     if (presence->enter_s >= leave_s) break;

@@ -73,11 +73,12 @@ class ReservationTable {
   double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
  private:
-  /// A disk's stay near one cell.
+  /// A disk's stay near one cell, or a little more: plans of many robots are mostly made of these, and in
+  /// floats they take half the memory. Questions that they let through are answered from the disk itself.
   struct Presence {
-    double enter_s;
-    double exit_s;
-    double latest_exit_s;  ///< of this and all before it in the timeline
+    float enter_s;
+    float exit_s;
+    float latest_exit_s;  ///< of this and all before it in the timeline
     DiskId disk;
   };
   struct Timeline {
@@ -99,7 +100,7 @@ class ReservationTable {
     /// Brings latest_exit_s up to date from `place` on. O(those that change).
     void repair_from(std::pmr::vector<Presence>::iterator place);
     /// The first passing presence that may end after `time_s`. O(log size).
-    const Presence* first_after(double time_s) const;
+    const Presence* first_after(float time_s) const;
   };
   struct Keepout {
     Vec2 place;
