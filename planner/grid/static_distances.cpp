@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/geometry/interval.hpp"
 #include "planner/grid/neighbourhood.hpp"
 
@@ -34,24 +34,34 @@ StaticDistances::StaticDistances(const GridMap& map, const LineOfSight& line_of_
 }
 
 void StaticDistances::set_goal(Cell goal, Cell towards) {
-  if ((spreads_.size() + 1) * map_.cell_count() * sizeof(double) > kMostKeptBytes) spreads_.clear();
-  const auto [place, is_new] = spreads_.try_emplace(map_.index(goal));
   goal_ = goal;
-  spread_ = &place->second;
-  if (!is_new) return;
-  spread_->towards = towards;
-  spread_->least_f = length_bound(goal, towards);
+  towards_ = towards;
+  spread_ = nullptr;
+}
+
+StaticDistances::Spread& StaticDistances::spread_of_goal() {
+  const std::size_t index = map_.index(goal_);
+  if (const auto known = spreads_.find(index); known != spreads_.end()) return known->second;
+  const bool is_full = (spreads_.size() + 1) * map_.cell_count() * sizeof(double) > kMostKeptBytes;
+  // The new one takes the memory of one that is forgotten.
+  auto reused = is_full && !spreads_.empty() ? spreads_.extract(spreads_.begin()) : Spreads::node_type{};
+  if (reused) reused.key() = index;
+  Spread& spread = reused ? spreads_.insert(std::move(reused)).position->second : spreads_[index];
+  spread.towards = towards_;
+  spread.least_f = length_bound(goal_, towards_);
+  spread.cells.assign(map_.cell_count(), kForever);
+  spread.cells[index] = 0;
+  spread.level = 0;
+  for (std::vector<Open>& bucket : spread.buckets) bucket.clear();
+  spread.buckets[0].push_back({0, goal_});
+  spread.open = 1;
+  return spread;
 }
 
 double StaticDistances::searched_detour_cells(Cell cell) {
-  const std::size_t index = map_.index(cell);
+  if (spread_ == nullptr) spread_ = &spread_of_goal();
   Spread& spread = *spread_;
-  if (spread.cells.empty()) {
-    spread.cells.assign(map_.cell_count(), kForever);
-    spread.cells[map_.index(goal_)] = 0;
-    spread.buckets[0].push_back({0, goal_});
-    spread.open = 1;
-  }
+  const std::size_t index = map_.index(cell);
   const double ahead = length_bound(cell, spread.towards) - spread.least_f;
   while (spread.cells[index] + ahead >= static_cast<double>(spread.level) && spread.open > 0) grow(spread);
   const double detour = spread.cells[index] - neighbourhood_distance(cell, goal_, k_);

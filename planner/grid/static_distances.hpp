@@ -15,8 +15,8 @@ namespace sipplab {
 /// Silver, AIIDE 2005), over buckets of OPEN one cell wide (Dial 1969).
 class StaticDistances {
  public:
-  /// What is known of former goals is forgotten beyond this: it is kept for the next try of
-  /// prioritized planning, but on 512 x 512 cells 10,000 robots would fill 20 GB.
+  /// What is known of a goal is kept for the next try of prioritized planning, up to this much in all;
+  /// for 10,000 robots on 512 x 512 cells it would be 20 GB.
   static constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
 
   /// `steps` are those of neighbourhood(k). All three must outlive this.
@@ -57,7 +57,10 @@ class StaticDistances {
     std::size_t open = 0;                             ///< entries in all buckets
   };
 
+  using Spreads = std::unordered_map<std::size_t, Spread>;  ///< by index of the goal
+
   double searched_detour_cells(Cell cell);
+  Spread& spread_of_goal();
   /// Empties the bucket of the level, and goes on to the next.
   void grow(Spread& spread) const;
 
@@ -66,10 +69,11 @@ class StaticDistances {
   const LineOfSight& line_of_sight_;
   StepTable& table_;
   int k_;
-  std::vector<Step> steps_;                          ///< of the neighbourhood
-  std::unordered_map<std::size_t, Spread> spreads_;  ///< by index of the goal
+  std::vector<Step> steps_;  ///< of the neighbourhood
+  Spreads spreads_;
   Cell goal_;
-  Spread* spread_ = nullptr;  ///< of goal_
+  Cell towards_;
+  Spread* spread_ = nullptr;  ///< of goal_; none before it is asked for
 };
 
 }  // namespace sipplab

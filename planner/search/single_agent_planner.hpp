@@ -41,7 +41,7 @@ struct SearchLimits {
   /// Set from outside, by a signal for one: asks to end as a deadline does.
   const std::atomic<bool>* stop = nullptr;
   /// Trajectories that arrive later are of no use: a search may end with kNoPath as soon
-  /// as no earlier arrival is left in it.
+  /// as its heuristic leaves room for no earlier one.
   double latest_arrival_s = kForever;
 
   /// Whether the deadline has passed or somebody asked to end.

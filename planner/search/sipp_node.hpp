@@ -17,7 +17,7 @@ struct SippNode {
   SafeInterval interval;
   double arrival_s = kForever;  ///< earliest known; kForever: not reached yet
   double departure_s = 0;       ///< when the parent is left to arrive then
-  double to_goal_s = 0;         ///< the heuristic: a lower bound on the time from here to the goal, weighted
+  double to_goal_s = 0;         ///< the heuristic: at most the time by steps from here to the goal, weighted
   Cell cell;
   NodeId parent = kNoNode;
 };

@@ -45,7 +45,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
     const NodeId id = entry.node;
-    // No entry has a smaller f, and nobody arrives before f / weight.
+    // No entry has a smaller f, and nobody arrives by steps before f / weight.
     if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     if (is_overtaken(entry)) continue;
     if (entry.is_promise()) {

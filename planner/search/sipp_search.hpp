@@ -21,7 +21,8 @@ struct SippOptions {
   /// an arrival that is at most so many times as late as the earliest one by steps alone.
   double weight = 1;
   /// Add to the heuristic what the map's obstacles add to a robot's way by steps, were it alone: no way by
-  /// steps takes less, but some any-angle way may. Off: the plain bound, as on an empty map.
+  /// steps takes less, but some any-angle way may, and may be missed where it alone is in time for a latest
+  /// arrival. Off: the plain bound, as on an empty map.
   bool detours = true;
   /// Try the straight way to the goal from each expanded node, departing at once, or so late
   /// that the goal is free for good on arrival: no node of OPEN promises an earlier one (with a
@@ -71,7 +72,7 @@ class SippSearch final : public SingleAgentPlanner {
   /// At most what the way by steps from the cell to the goal takes; not weighted.
   double heuristic_s(Cell cell);
   double travel_s(Cell from, Cell to) const;
-  /// A lower bound on the arrival at the goal by way of the node, what is ahead weighted.
+  /// At most the arrival at the goal by the node and steps from there, what is ahead weighted.
   static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
   bool is_goal(const SippNode& node) const;
   /// Whether an arrival that leaves nothing to gain was found after this was queued.

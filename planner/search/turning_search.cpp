@@ -73,7 +73,7 @@ Expected<Trajectory, PlanFailure> TurningSearch::plan(AgentIndex agent, Reservat
   SearchBudget budget(limits);
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
-    // No entry has a smaller f, and nobody arrives before f / weight.
+    // No entry has a smaller f, and nobody arrives by steps before f / weight.
     if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     const NodeId id = entry.node;
     if (states_[id].dominated) continue;
