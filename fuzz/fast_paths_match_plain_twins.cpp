@@ -153,6 +153,12 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   options.weight = plan_case.options.weight;
   const Arrival weighted = search(plan_case, agent, traffic, options);
   require_twins(weighted.found == grid.found, "found with one weight of the heuristic only");
+  options.any_angle = true;
+  const Arrival straightened = search(plan_case, agent, traffic, options);
+  options.straighten = false;
+  const Arrival bent = search(plan_case, agent, traffic, options);
+  require_twins(straightened.found == bent.found, "found only where straightened");
+  require_twins(straightened.arrival_s <= bent.arrival_s, "straightened and later");
   if (!grid.found) return;
   require_twins(weighted.arrival_s <= options.weight * grid.arrival_s + kArrivalS,
                 "later than the weight allows");

@@ -220,17 +220,34 @@ void search_in_an_empty_world(benchmark::State& state) {
 }
 BENCHMARK(search_in_an_empty_world)->Name("search/empty")->Unit(benchmark::kMicrosecond);
 
-/// Argument: 1 with the map's detours in the heuristic, 0 for the plain twin.
-void search_in_a_crowd(benchmark::State& state) {
+void search_in_a_crowd(benchmark::State& state, const SippOptions& options) {
   Crowd& crowd = the_crowd();
-  if (!crowd.ready(state)) return;
+  if (crowd.ready(state)) search_once(state, crowd.instance, crowd.left_out, crowd.reservations, options);
+}
+
+/// Argument: 1 with the map's detours in the heuristic, 0 for the plain twin.
+void search_with_detours(benchmark::State& state) {
   SippOptions options;
   options.detours = state.range(0) != 0;
-  search_once(state, crowd.instance, crowd.left_out, crowd.reservations, options);
+  search_in_a_crowd(state, options);
 }
-BENCHMARK(search_in_a_crowd)
+BENCHMARK(search_with_detours)
     ->Name("search/crowded")
     ->ArgName("detours")
+    ->Arg(1)
+    ->Arg(0)
+    ->Unit(benchmark::kMicrosecond);
+
+/// Argument: 1 with the way straightened at the end, 0 for the plain twin.
+void weighted_search(benchmark::State& state) {
+  SippOptions options;
+  options.weight = 1.5;
+  options.straighten = state.range(0) != 0;
+  search_in_a_crowd(state, options);
+}
+BENCHMARK(weighted_search)
+    ->Name("search/weighted")
+    ->ArgName("straighten")
     ->Arg(1)
     ->Arg(0)
     ->Unit(benchmark::kMicrosecond);

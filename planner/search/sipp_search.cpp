@@ -56,7 +56,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
         continue;
       }
     }
-    if (is_goal(nodes_[id])) return reconstruct(id);
+    if (is_goal(nodes_[id])) return finish(id);
     if (statistics.expansions - expansions_before >= limits.max_expansions) {
       return Unexpected{PlanFailure::kExpansionLimit};
     }
@@ -65,7 +65,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
     }
     ++statistics.expansions;
     if (options_.any_angle && options_.direct_shot && shoot(id, statistics)) {
-      return reconstruct(at_goal.last - 1);
+      return finish(at_goal.last - 1);
     }
     expand(id, statistics);
   }
@@ -276,10 +276,42 @@ double SippSearch::earliest_departure(const Move& move, double from_s, double un
              : reservations_->earliest_departure_plain(move, agent_->radius_cells, from_s, until_s);
 }
 
-Trajectory SippSearch::reconstruct(NodeId goal) const {
+Trajectory SippSearch::finish(NodeId goal) {
+  const std::vector<NodeId> way = way_to(goal);
+  if (!options_.any_angle || !options_.straighten || options_.weight == 1) return reconstruct(way);
+  straighten(way);
+  return reconstruct(way_to(goal));
+}
+
+std::vector<NodeId> SippSearch::way_to(NodeId goal) const {
   std::vector<NodeId> way;
   for (NodeId id = goal; id != kNoNode; id = nodes_[id].parent) way.push_back(id);
   std::reverse(way.begin(), way.end());
+  return way;
+}
+
+void SippSearch::straighten(std::span<const NodeId> way) {
+  bool is_earlier = false;  // at the node before
+  for (const NodeId id : way.subspan(1)) {
+    SippNode& node = nodes_[id];
+    const double found_s = node.arrival_s;
+    if (is_earlier) arrive_straight(node.parent, id);
+    for (NodeId bend = node.parent; nodes_[bend].parent != kNoNode; bend = node.parent) {
+      const NodeId before = nodes_[bend].parent;
+      if (node.departure_s == nodes_[bend].arrival_s && is_on_the_way(before, bend, id)) {
+        node.parent = before;
+        node.departure_s = nodes_[bend].departure_s;
+      } else if (nodes_[before].cell == node.cell ||
+                 !body_->line_of_sight.is_clear(nodes_[before].cell, node.cell) ||
+                 !arrive_straight(before, id)) {
+        break;
+      }
+    }
+    is_earlier = node.arrival_s < found_s;
+  }
+}
+
+Trajectory SippSearch::reconstruct(std::span<const NodeId> way) const {
   Trajectory trajectory{agent_->start, {}};
   NodeId left = kNoNode;  // where the last motion began
   for (std::size_t i = 1; i < way.size(); ++i) {

@@ -2,6 +2,7 @@
 // [YA17]: Yakovlev and Andreychuk, ICAPS 2017, algorithm AA-SIPP.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "planner/search/body.hpp"
@@ -30,6 +31,10 @@ struct SippOptions {
   /// search is greedy and f may fall along a way: now and then an earlier arrival would have been found by
   /// searching on.
   bool direct_shot = true;
+  /// Weighted, at any angle: leave out those bends of the way that was found behind which a straight way
+  /// from the bend before is safe and earlier. The arrival is never later, and a good part of what the
+  /// weight costs is won back.
+  bool straighten = true;
   /// Queue successors with a lower bound on their arrival and compute the arrival when
   /// they come up; off: compute it for each successor at once, the plain twin. The two
   /// break ties differently.
@@ -100,8 +105,14 @@ class SippSearch final : public SingleAgentPlanner {
   /// the moment from which the goal is free; then the goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
   double earliest_departure(const Move& move, double from_s, double until_s);
-  /// The way to a node; any-angle steps that go on in one line are one motion.
-  Trajectory reconstruct(NodeId goal) const;
+  /// What is handed over once the goal's node is reached.
+  Trajectory finish(NodeId goal);
+  /// From the start.
+  std::vector<NodeId> way_to(NodeId goal) const;
+  /// Lowers arrivals along the way by straight ways that leave out bends. REQUIRES: any-angle.
+  void straighten(std::span<const NodeId> way);
+  /// Any-angle steps that go on in one line are one motion.
+  Trajectory reconstruct(std::span<const NodeId> way) const;
 
   const Instance& instance_;
   SippOptions options_;

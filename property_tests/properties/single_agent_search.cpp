@@ -259,6 +259,22 @@ std::optional<double> is_late_by_its_weight_at_most(const Instance& instance, co
   return *earliest_s > 0 ? arrival_s / *earliest_s : 1;
 }
 
+/// By how many seconds a weighted way got shorter when it was straightened; none where there is no way.
+std::optional<double> gains_by_straightening(const World& world, SippOptions options) {
+  const Instance instance = world.instance();
+  const Outcome straightened = search(instance, options);
+  options.straighten = false;
+  const Outcome found = search(instance, options);
+  RC_ASSERT(straightened.trajectory.has_value() == found.trajectory.has_value());
+  RC_ASSERT(straightened.statistics.expansions == found.statistics.expansions);
+  if (!found.trajectory) return std::nullopt;
+  keeps_clear(instance, world, *straightened.trajectory);
+  goes_each_line_at_once(*straightened.trajectory);
+  const double gain_s = found.trajectory->arrival_s() - straightened.trajectory->arrival_s();
+  RC_ASSERT(gain_s >= 0);
+  return gain_s;
+}
+
 /// How many expansions the search takes without a limit.
 std::uint64_t respects_limit(const World& world, const SippOptions& options) {
   const Instance instance = world.instance();
@@ -352,6 +368,18 @@ int main() {
       lateness = std::max(lateness, late.value_or(1));
     }
     RC_CLASSIFY(lateness > 1 + kArrivalS, "later than it might be");
+  });
+
+  passed &= property("weighted ways are straightened: clear of everything, and never later", [] {
+    constexpr int kWorlds = 20;
+    int gains = 0;
+    for (int i = 0; i < kWorlds; ++i) {
+      const World world = *any_world(5);
+      SippOptions options = any_angle_sipp(world);
+      options.weight = *any_of({1.25, 2.0, 5.0});
+      gains += gains_by_straightening(world, options).value_or(0) > kArrivalS;
+    }
+    RC_CLASSIFY(gains > 0, "some earlier");
   });
 
   passed &= property("a search and a table that were used before change nothing", [] {
