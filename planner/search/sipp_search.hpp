@@ -32,8 +32,9 @@ struct SippOptions {
   /// searching on.
   bool direct_shot = true;
   /// Weighted, at any angle: leave out those bends of the way that was found behind which a straight way
-  /// from the bend before is safe and earlier. The arrival is never later, and a good part of what the
-  /// weight costs is won back.
+  /// from the bend before is safe and earlier. The arrival is never later. (Trials on the paper's instances,
+  /// 50 a cell, weight 1.2: a quarter to a half of the flowtime that the weight costs on empty maps and with
+  /// up to 32 robots in the warehouse, nothing with more.)
   bool straighten = true;
   /// Queue successors with a lower bound on their arrival and compute the arrival when
   /// they come up; off: compute it for each successor at once, the plain twin. The two
