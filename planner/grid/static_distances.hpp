@@ -60,6 +60,7 @@ class StaticDistances {
   using Spreads = std::unordered_map<std::size_t, Spread>;  ///< by index of the goal
 
   double searched_detour_cells(Cell cell);
+  /// What is known of goal_; begun where nothing is.
   Spread& spread_of_goal();
   /// Empties the bucket of the level, and goes on to the next.
   void grow(Spread& spread) const;
