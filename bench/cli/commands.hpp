@@ -32,6 +32,7 @@ Command add_report_command(CLI::App& program);
 Command add_plot_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
+Command add_documentation_command(CLI::App& program);
 Command add_doctor_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_gate_command(CLI::App& program);

@@ -69,6 +69,7 @@ int parse_and_run(int argc, char** argv) {
       add_report_command(program),
       add_plot_command(program),
       add_reproduce_command(program, invocation_of(argc, argv)),
+      add_documentation_command(program),
   };
   refuse_false_counts(program);
   if (const std::string error = empty_element_error(program, argc, argv); !error.empty()) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The library as another project uses it: installs into an empty folder, then builds and
-# runs a program that finds it by find_package(sipplab).
+# runs the example, which finds it by find_package(sipplab).
 #
 #   find_package.sh BUILD_FOLDER CXX_COMPILER
 set -euo pipefail
@@ -8,39 +8,41 @@ build=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-
-mkdir "$work/user"
-cat >"$work/user/CMakeLists.txt" <<'CMAKE'
-cmake_minimum_required(VERSION 3.25)
-project(user LANGUAGES CXX)
-find_package(sipplab 0.1 REQUIRED)
-add_executable(user user.cpp)
-target_link_libraries(user PRIVATE sipplab::planner)
-CMAKE
-cat >"$work/user/user.cpp" <<'CPP'
-#include <cstdio>
-
-#include "planner/generator/generator.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
-#include "planner/validator/validator.hpp"
-
-int main() {
-  sipplab::GeneratorOptions options;
-  options.agents = 4;
-  const auto instance = sipplab::generate_instance(sipplab::warehouse_map(), options);
-  if (!instance) return 1;
-  const sipplab::PlanResult result = sipplab::plan(*instance, sipplab::PlannerOptions{});
-  if (result.status != sipplab::PlanStatus::kSolved) return 1;
-  if (!sipplab::validate(*instance, result.solution).valid()) return 1;
-  std::printf("makespan %g\n", sipplab::makespan_s(result.solution));
-  return 0;
-}
-CPP
+quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" && exit 1; }; }
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 flags=$(cached SIPPLAB_SANITIZE)
+
+quietly cmake --install "$build" --prefix "$work/prefix"
 # The same build tool: a fresh machine has no other.
-cmake -S "$work/user" -B "$work/build" -G "$(cached CMAKE_GENERATOR)" -DCMAKE_CXX_COMPILER="$2" -DCMAKE_PREFIX_PATH="$work/prefix" \
-  ${flags:+-DCMAKE_CXX_FLAGS=-fsanitize=$flags} >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-"$work/build/user"
+quietly cmake -S "$work/prefix/share/doc/sipplab/example" -B "$work/build" -G "$(cached CMAKE_GENERATOR)" \
+  -DCMAKE_CXX_COMPILER="$2" -DCMAKE_PREFIX_PATH="$work/prefix" ${flags:+-DCMAKE_CXX_FLAGS=-fsanitize=$flags}
+quietly cmake --build "$work/build"
+"$work/build/example"
+
+# The manual page names every command and flag that --help names; the completion offers them.
+program=$work/prefix/bin/sipplab
+gzip -dc "$work/prefix/share/man/man1/sipplab.1.gz" | tr -d '\\' >"$work/manual"
+# No pipe into grep -q: it ends at the first match, and what still writes then fails.
+offers() { # WORD WORDS...: whether completion of the words offers the first
+  local word=$1
+  shift
+  COMP_WORDS=(sipplab "$@") COMP_CWORD=$# COMPREPLY=()
+  _sipplab
+  [[ " ${COMPREPLY[*]} " == *" $word "* ]]
+}
+# shellcheck disable=SC1091 # made by the build
+source "$work/prefix/share/bash-completion/completions/sipplab"
+commands=$("$program" --help | sed -n '/^Subcommands:/,$s/^  \([a-z]\{1,\}\) .*/\1/p')
+[ "$(wc -l <<<"$commands")" -ge 15 ] || { echo "commands of --help: $commands" && exit 1; }
+for command in $commands; do
+  grep -q "^.SS $command" "$work/manual" || { echo "the manual lacks $command" && exit 1; }
+  offers "$command" "$command" || { echo "$command is not completed" && exit 1; }
+  for flag in $("$program" "$command" --help | grep -o '^  [^ ].*' | grep -o -- '--[a-z][a-z-]*' | sort -u); do
+    grep -q -- "$flag" "$work/manual" || { echo "the manual lacks $command $flag" && exit 1; }
+    case $flag in
+      --no-*) ;; # the opposite of a flag that is offered
+      *) offers "$flag" "$command" "$flag" || { echo "$command $flag is not completed" && exit 1; } ;;
+    esac
+  done
+done
+echo 'manual and completion: all commands and flags'

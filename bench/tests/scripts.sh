@@ -34,6 +34,12 @@ refused "--long 'soon', expected minutes" test --long soon
 refused 'usage' pull-request
 refused '-o, expected a value' pull-request HEAD -o
 refused 'expected a commit' pull-request no/such/commit -o here
+refused "--programs 'no/such', expected two programs" pull-request --programs no/such /bin/true
+refused 'expected one of the two' pull-request --programs /bin/true /bin/true HEAD
+refused '-o, expected a folder' package -o
+refused '-x, expected' package -x
+refused "suite '/', expected a name" test-fresh /
+refused '--frobnicate, expected' test-fresh --frobnicate
 refused '--frobnicate, expected' pull-request --frobnicate HEAD
 refused 'usage' gate-trials --frobnicate
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
