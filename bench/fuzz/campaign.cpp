@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 /// What an input may cost, as the engine is told; fuzz/replay/ judges by the same.
 constexpr int kMaxInputBytes = 4096;
 constexpr int kInputTimeoutS = 10;
-/// An input that alone takes less than this part of that is not slow.
+/// An input that alone takes less than this part of that, in processor time, is not slow.
 constexpr int kQuickShare = 5;
 constexpr int kMemoryLimitMb = 1024;
 /// Seconds that an engine gets to come to its end beyond its budget, the merge of a corpus
@@ -182,9 +182,8 @@ class TargetRun {
 
   /// Whether it was the machine that took the time, busy or asleep, and not the input.
   bool is_quick_alone(const std::string& input) {
-    const Clock::time_point begin = Clock::now();
-    if (program_.judge(input).verdict == Verdict::kBreaks) return false;
-    return Clock::now() - begin < std::chrono::seconds(kInputTimeoutS) / kQuickShare;
+    const InputVerdict judged = program_.judge(input);
+    return judged.verdict == Verdict::kHolds && judged.cpu_time_s * kQuickShare < kInputTimeoutS;
   }
 
   /// Inputs by the kind that the engine named them after. Exit codes say nothing: in fork

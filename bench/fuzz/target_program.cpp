@@ -76,6 +76,7 @@ InputVerdict TargetProgram::judge(const std::string& input) const {
   const ProgramRun run = run_program({replayer().string(), "--judge", file.string()},
                                      {.log = scratch_ / "judge.log", .limit_s = kJudgeLimitS});
   InputVerdict verdict;
+  verdict.cpu_time_s = run.cpu_time_s;
   if (!run.started || run.timed_out) return verdict;
   if (run.exit_code == 0) verdict.verdict = Verdict::kHolds;
   if (run.exit_code != 1) return verdict;

@@ -18,6 +18,7 @@ enum class Verdict {
 struct InputVerdict {
   Verdict verdict = Verdict::kNotJudged;
   std::string kind, claim, frames, message;  ///< of what breaks
+  double cpu_time_s = 0;                     ///< that judging took
 
   std::string signature() const { return kind + " | " + claim + " | " + frames; }
 };

@@ -142,8 +142,9 @@ expect 0 bench --suite smoke --benchmark_list_tests --benchmark_filter=agents:32
 equal "$(wc -l <out)" 8 "cases listed"
 says '^plan/warehouse/agents:32/ssi:2.5/reschedule:deterministic/order:fifo/planner:any-angle-4'
 [ ! -e sipplab.db ] || complain "listing cases made a history"
-expect 0 bench --suite dense --map warehouse --robots 128 --count 2 --db dense.db
-expect 0 bench --suite smoke --map warehouse --robots 128 --ssi 0 --reschedule none --order shortest --connectedness 2 --any-angle --count 2 --fallback complete --db dense.db
+# Without a time limit, here and elsewhere: on a machine with other work it would decide.
+expect 0 bench --suite dense --map warehouse --robots 128 --count 2 --time-limit inf --db dense.db
+expect 0 bench --suite smoke --map warehouse --robots 128 --time-limit inf --ssi 0 --reschedule none --order shortest --connectedness 2 --any-angle --count 2 --fallback complete --db dense.db
 equal "$("$sipplab" sql --db dense.db --format csv "SELECT planner, made_by, results, solved FROM v_plan_makers ORDER BY planner" | tail -n +2 | tr -d '\r' | tr '\n' ' ')" \
   "aa-sipp+complete,complete,2,2 complete,complete,2,2 " "who made the plans"
 equal "$("$sipplab" sql --db dense.db --format csv "SELECT count(*), min(solved), min(peak_memory_bytes > 1000000), min(mean_expansions > 0) FROM v_work" | tail -n +2 | tr -d '\r')" \
@@ -323,19 +324,29 @@ mkdir own
 expect 0 generate --map empty:5x5 --agents 1 --count 1 --format movingai -o own
 refused 'own/0.map is the map' generate --map own/0.map --agents 2 --count 1 --format movingai -o own
 
-# Killed at any moment: what was finished is there, and --resume does the rest. How
-# long a sweep takes depends on the machine and the build, so it grows until the kill
-# comes in time.
+# interrupted_sweep SIGNAL CASES: sends the signal to a sweep once so many cases are finished;
+# sets `count` and `code`. How long a sweep takes depends on the machine and the build, so it
+# grows until the signal comes in time.
 sweep=(bench --suite smoke --robots 24 --db killed.db)
-for count in 4 16 64 256; do
-  rm -f killed.db*
-  "$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>&1 &
-  victim=$!
-  until [ "$(sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0)" -ge 3 ] || ! kill -0 $victim 2>/dev/null; do :; done
-  kill -KILL $victim 2>/dev/null
-  wait $victim 2>/dev/null
-  [ "$(sqlite3 killed.db 'SELECT status FROM run')" = running ] && break
-done
+finished_cases() { sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0; }
+interrupted_sweep() {
+  local victim
+  for count in 4 16 64 256; do
+    rm -f killed.db*
+    "$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>err &
+    victim=$!
+    until [ "$(finished_cases)" -ge "$2" ] || ! kill -0 $victim 2>/dev/null; do :; done
+    kill -"$1" $victim 2>/dev/null
+    code=0
+    wait $victim 2>/dev/null || code=$?
+    [ "$(sqlite3 killed.db 'SELECT status FROM run')" = finished ] || break
+  done
+}
+
+# Killed at any moment: what was finished is there, and --resume does the rest.
+interrupted_sweep KILL 3
+equal "$code" 137 "exit code after SIGKILL"
+equal "$(sqlite3 killed.db 'SELECT status FROM run')" running "run after SIGKILL"
 equal "$(sqlite3 killed.db 'PRAGMA integrity_check')" ok "integrity after SIGKILL"
 equal "$(sqlite3 killed.db 'SELECT count(*) FROM cell WHERE result_count <> (SELECT count(*) FROM result WHERE cell_id = cell.id)')" 0 "half cases"
 sqlite3 killed.db 'SELECT * FROM cell ORDER BY id' >finished_before
@@ -348,13 +359,8 @@ equal "$(sqlite3 killed.db 'SELECT count(*), count(DISTINCT case_id) FROM cell')
 equal "$(sqlite3 killed.db 'SELECT count(*), status FROM run')" "1|finished" "runs after --resume"
 
 # Ctrl-C: the record is closed, the exit code tells, the next step is named.
-rm -f killed.db*
-"$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>err &
-victim=$!
-until [ "$(sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0)" -ge 1 ] || ! kill -0 $victim 2>/dev/null; do :; done
-kill -INT $victim 2>/dev/null
-wait $victim
-equal "$?" 130 "exit code after Ctrl-C"
+interrupted_sweep INT 1
+equal "$code" 130 "exit code after Ctrl-C"
 says 'resume' err
 equal "$(sqlite3 killed.db 'SELECT status FROM run')" aborted "run after Ctrl-C"
 

@@ -8,6 +8,8 @@ replay=$(realpath "$2")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
+# A history of the test's own, and sqlite3 as it is without anybody's settings.
+export HOME=/nowhere XDG_CONFIG_HOME=/nowhere
 export SIPPLAB_DB=$folder/history.db
 mkdir -p programs sources/corpus/planted_bug sources/corpus/quiet
 
@@ -116,12 +118,19 @@ printf '...\nrobot 0 0 to 2 0\n' >"${prefix}timeout-0"
 exit 70
 ENGINE
 chmod +x programs/stalled
-ln -s "$replay" programs/replay_stalled
+# replay_stalled COMMAND: judges as ever, after this.
+replay_stalled() { printf '#!/bin/sh\n%s\nexec "%s" "$@"\n' "$1" "$replay" >programs/replay_stalled; }
+replay_stalled 'sleep 3'
+chmod +x programs/replay_stalled
 expect_code 0 "${run[@]}" --target stalled
 expect_sql 'clean|1' "SELECT status, timeouts FROM fuzz_run WHERE target = 'stalled'"
 expect_code 0 "${run[@]}" --target stalled --skip-known
 if grep -q 'skipped' err; then fail 'a program that was not fuzzed to the end is left out'; fi
 expect_sql '1' 'SELECT count(*) FROM finding'
+# One that takes three seconds of processor time is slow, and no more than that can be said of it.
+replay_stalled '[ -e spent ] || { : >spent; (ulimit -t 3 && while :; do :; done); }'
+expect_code 1 "${run[@]}" --target stalled
+expect_sql 'flaky|timeout' "SELECT kind, claim FROM finding WHERE target = 'stalled'"
 
 # Coverage as llvm-cov sums it up.
 cat >summary.json <<'JSON'

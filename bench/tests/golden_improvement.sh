@@ -69,12 +69,12 @@ less "$(value makespan out)" "$(value makespan ejection.json)" || complain "the 
 
 # --- all of it ------------------------------------------------------------------------
 
-expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i --json
+expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i --time-limit inf --json
 cp out best.json
 valid best.json
 says '"kind": "fallback", "ssi": 3, "status": "solved", "tries": 1, ' best.json
 less "$(value flowtime best.json)" "$(value flowtime ejection.json)" || complain "the best plan is not better"
-expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i
+expect 0 plan --instance crowd/0.xml --ssi 3 --best --improve 300i --time-limit inf
 says '^step        fallback, ssi 3: solved after 1 try, [0-9.]+ s; flowtime [0-9.]+, makespan '
 says '^step        method, ssi 3: '
 says '^curve       seconds'
@@ -83,7 +83,8 @@ says '^curve       seconds'
 
 ask() { sqlite3 curves.db "$1"; }
 sweep=(bench --suite anytime --map empty:12x12 --robots 40 --count 1 --ssi 3 --db curves.db)
-expect 0 "${sweep[@]}" --best --improve 100i --repetitions 2
+# Without a time limit: the iterations alone end it, on a machine with other work as well.
+expect 0 "${sweep[@]}" --best --improve 100i --repetitions 2 --time-limit inf
 equal "$(ask "SELECT planner, count(*), count(DISTINCT plan_hash), sum(valid) FROM v_results")" \
   'aa-sipp+best:100i,flowtime|2|1|2' 'two repetitions, one plan'
 equal "$(ask 'SELECT count(*) FROM v_progress p JOIN v_progress q USING (run, case_id, position, repetition)
@@ -99,17 +100,26 @@ equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner = 'aa-sip
 
 # --- a signal -------------------------------------------------------------------------
 
-# A signal in the middle: the best plan so far, valid and in time.
-"$sipplab" plan --instance crowd/0.xml --ssi 3 --best --time-limit 300 --json >interrupted.json 2>err &
+# A signal in the middle: the best plan so far, valid and in time. There is a plan after
+# hundredths of a second of processor time, and the clock on the wall says nothing of that.
+limit_s=600
+"$sipplab" plan --instance crowd/0.xml --ssi 3 --best --time-limit "$limit_s" --json >interrupted.json 2>err &
 planner=$!
-sleep 2
+# spent SECONDS: whether the planner had so much of the processors. Fields 14 and 15, counted from
+# the end of the name, which may hold spaces.
+spent() {
+  local fields
+  read -ra fields <<<"$(sed 's/.*) //' "/proc/$planner/stat")"
+  [ $(((${fields[11]:-0} + ${fields[12]:-0}) / $(getconf CLK_TCK))) -ge "$1" ]
+}
+comes spent 2 || complain 'the planner does not get along'
 kill -INT "$planner"
 code=0
 wait "$planner" || code=$?
 equal "$code" 0 'exit code after a signal'
 says 'ending with the best plan so far' err
 says '"status": "solved"' interrupted.json
-less "$(value planning_seconds interrupted.json)" 200 || complain "the signal was not heard"
+less "$(value planning_seconds interrupted.json)" "$limit_s" || complain "the signal was not heard"
 valid interrupted.json
 
 [ "$broken" -eq 0 ]

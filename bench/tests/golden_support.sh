@@ -3,7 +3,9 @@
 
 # A sanitizer's finding must not look like a negative verdict.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"
+# What a user has set up must not decide: a history of his own, sqlite3's output, the order of sort.
 unset SIPPLAB_DB
+export HOME=/nowhere XDG_CONFIG_HOME=/nowhere LC_ALL=C
 
 broken=0
 complain() {
@@ -40,3 +42,13 @@ refused() {
 # says PATTERN [FILE], equal GOT WANTED WHAT
 says() { grep -qE -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 500 "${2:-out}")"; }
 equal() { [ "$1" = "$2" ] || complain "$3: '$1' is not '$2'"; }
+
+# comes COMMAND...: whether it succeeds before long. What is waited for takes moments, and on a
+# machine with other work longer; where it never comes, the test says so instead of hanging.
+comes() {
+  local end=$((SECONDS + 120))
+  until "$@"; do
+    [ "$SECONDS" -lt "$end" ] || return 1
+    sleep 0.02
+  done
+}

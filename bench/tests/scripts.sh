@@ -15,7 +15,8 @@ refused() { # PATTERN SCRIPT ARGUMENTS...
   shift
   local script=$1
   shift
-  timeout 20 "$scripts/$script" "$@" >"$work.out" 2>"$work.err" || code=$?
+  # A script that does not refuse would build for minutes; refusing takes moments, and longer on a busy machine.
+  timeout 120 "$scripts/$script" "$@" >"$work.out" 2>"$work.err" || code=$?
   if [ "$code" -ne 2 ] || ! head -n 1 "$work.err" | grep -Eq -- "$pattern" || [ -s "$work.out" ]; then
     printf 'BROKEN: scripts/%s %s: exit code %d, "%s"\n' "$script" "$*" "$code" "$(head -n 1 "$work.err")"
     broken=1

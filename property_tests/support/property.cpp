@@ -116,10 +116,13 @@ std::string reproduce_text(const std::string& title, const Reproduce& reproduce)
   return text.substr(begin, text.find(' ', begin) - begin);
 }
 
-/// The text with files named from the root of the project, as on every machine.
+/// The text with files named from the root of the project, as on every machine; ccache may
+/// have them named from the folder of the build.
 std::string from_the_root(std::string text) {
-  const std::string folder = SIPPLAB_SOURCE_DIR "/";
-  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) text.erase(at, folder.size());
+  for (const std::string folder : {SIPPLAB_SOURCE_DIR "/", "../"}) {
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;)
+      text.erase(at, folder.size());
+  }
   return text;
 }
 
