@@ -27,20 +27,26 @@ done < <(cut -d/ -f1 <<<"$files" | sort -u)
 
 while read -r name; do
   [ -f "$name" ] || continue
-  head -n 1 "$name" | grep -q '^# [^ ]' || complain "$name has no title"
-  while read -r link; do
-    [ -e "$(dirname "$name")/${link%%#*}" ] || complain "$name: the link $link leads nowhere"
-  done < <(grep -oE '\]\([^)#:]+(#[^)]*)?\)' "$name" | sed 's/^](//; s/)$//')
+  read -r title <"$name"
+  [[ $title == '# '[^\ ]* ]] || complain "$name has no title"
 done < <(grep '\.md$' <<<"$files")
+# A line of git grep is FILE:](LINK) or FILE:](LINK#SECTION).
+while IFS= read -r found; do
+  name=${found%%:*} link=${found#*:](}
+  link=${link%%[)#]*}
+  [ -z "$link" ] || [ -e "./${name%"${name##*/}"}$link" ] || complain "$name: the link $link leads nowhere"
+done < <(git grep -oE '\]\([^)#:]*(#[^)]*)?\)' -- '*.md')
 
 # Lines: the README of the root can be read in one go, that of a folder fits on a screen.
 short() { # FILE LINES
-  [ "$(wc -l <"$1")" -le "$2" ] || complain "$1 has $(wc -l <"$1") lines, expected at most $2"
+  local lines
+  mapfile -t lines <"$1"
+  [ "${#lines[@]}" -le "$2" ] || complain "$1 has ${#lines[@]} lines, expected at most $2"
 }
 short README.md 150
 while read -r folder; do
   if [ -f "$folder/README.md" ]; then short "$folder/README.md" 60; else complain "$folder has no README.md"; fi
-done < <(grep -E '\.(cpp|hpp|py)$' <<<"$files" | xargs -n 1 dirname | sort -u)
+done < <(sed -nE 's,/[^/]*\.(cpp|hpp|py)$,,p' <<<"$files" | sort -u)
 
 # Folder of a file, folder of what it includes, file.
 includes=$(git grep -E '^#include "[^"]+/[^"]+"' -- '*.cpp' '*.hpp' | sed -E 's/:#include "/ /; s/"$//' |
