@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # A golden run of the commands around the history: trend, report, merge, import, doctor, shards,
-# and every question of README's cookbook. Prints one line per promise that is broken.
+# and every question of the cookbook. Prints one line per promise that is broken.
 #
-#   golden_history.sh PATH_OF_SIPPLAB PATH_OF_README
+#   golden_history.sh PATH_OF_SIPPLAB PATH_OF_COOKBOOK
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 
-readme=$(realpath "$2")
+cookbook=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/build/release"
@@ -196,7 +196,7 @@ while IFS= read -r line; do
   questions=$((questions + 1))
   bash -c "$line" >out 2>err </dev/null || complain "the cookbook's '$line': $(head -c 300 err)"
   [[ $line == *property* || $line == *finding* || $line == *v_progress* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
-done < <(sed -n '/^## Ask the history/,/^## /p' "$readme" | sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p')
+done < <(sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p' "$cookbook")
 [ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
 
 [ "$broken" -eq 0 ] && echo "history: everything as promised, $questions questions of the cookbook"
