@@ -17,7 +17,7 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr std::string_view kReading = "looking for what to compare";
+constexpr std::string_view kReadingRuns = "looking for what to compare";
 constexpr std::size_t kShortHash = 8;
 
 bool is_hexadecimal(std::string_view text) {
@@ -45,7 +45,7 @@ Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where,
                   "LEFT JOIN commit_ ON commit_.id = run.commit_id "
                   "WHERE run.excluded_reason IS NULL AND {} ORDER BY run.started_utc, run.id",
                   where),
-      kReading);
+      kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
   std::vector<std::int64_t> ids;
@@ -65,7 +65,7 @@ Result<std::vector<std::string>> commits(Database& database, const char* where, 
                   "WHERE run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
                   "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
                   where),
-      kReading);
+      kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
   std::vector<std::string> hashes;
@@ -155,7 +155,7 @@ Result<std::map<std::int64_t, CellKey>> newest_cells(Database& database, const C
       "SELECT cell.case_id, cell.id, run.uuid, machine.fingerprint, build.binary_hash FROM cell "
       "JOIN run ON run.id = cell.run_id JOIN machine ON machine.id = run.machine_id "
       "JOIN build ON build.id = run.build_id WHERE cell.run_id = ?",
-      kReading);
+      kReadingRuns);
   if (!select) return Unexpected{select.error()};
   std::map<std::int64_t, CellKey> cells;
   for (const std::int64_t run : side.run_ids) {
@@ -193,7 +193,7 @@ ResultRow read_result(const Statement& row, int column) {
 
 Result<std::int64_t> result_count(Database& database, std::int64_t cell) {
   return database.connection().query_int(fmt::format("SELECT count(*) FROM result WHERE cell_id = {}", cell),
-                                         kReading);
+                                         kReadingRuns);
 }
 
 Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head, PairedCell& cell) {
@@ -206,7 +206,7 @@ Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head
                   "JOIN instance ON instance.id = base.instance_id "
                   "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
                   fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
-      kReading);
+      kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(base, head);
   constexpr int kBaseColumn = 4;
@@ -264,8 +264,8 @@ Result<std::vector<PairedCell>> paired_cells(Database& database, const Compariso
   if (!base_cells) return Unexpected{base_cells.error()};
   const auto head_cells = newest_cells(database, head);
   if (!head_cells) return Unexpected{head_cells.error()};
-  auto select = Statement::prepare(database.connection(),
-                                   fmt::format("SELECT {} FROM case_ WHERE id = ?", kCaseColumns), kReading);
+  auto select = Statement::prepare(
+      database.connection(), fmt::format("SELECT {} FROM case_ WHERE id = ?", kCaseColumns), kReadingRuns);
   if (!select) return Unexpected{select.error()};
   std::vector<PairedCell> cells;
   for (const auto& [case_key, base_cell] : *base_cells) {

@@ -19,7 +19,7 @@ using sqlite::Connection;
 using sqlite::Statement;
 
 constexpr std::size_t kShortUuid = 8;
-constexpr const char* kDoing = "examining it";
+constexpr const char* kExamining = "examining it";
 
 /// A check adds what it finds; an error of SQLite in it is a finding, too.
 class Examination {
@@ -65,7 +65,7 @@ class Examination {
 
   /// The first column of every row.
   Result<std::vector<std::string>> texts(const std::string& sql) {
-    auto select = Statement::prepare(connection_, sql, kDoing);
+    auto select = Statement::prepare(connection_, sql, kExamining);
     if (!select) return Unexpected{select.error()};
     std::vector<std::string> rows;
     for (;;) {
@@ -92,7 +92,7 @@ class Examination {
     auto select = Statement::prepare(
         connection,
         "SELECT type || ' ' || name, ifnull(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite%'",
-        kDoing);
+        kExamining);
     if (!select) return Unexpected{select.error()};
     std::map<std::string, std::string> found;
     for (;;) {
@@ -164,7 +164,7 @@ class Examination {
                            ? connection_.query_int(
                                  "SELECT count(*) FROM cell LEFT JOIN cell_summary USING (case_id, run_id) "
                                  "WHERE cell_summary.results IS NOT cell.result_count",
-                                 kDoing)
+                                 kExamining)
                            : count_stale_summaries(connection_);
     if (!stale) return Unexpected{stale.error()};
     if (*stale == 0) return Done{};
@@ -175,7 +175,8 @@ class Examination {
 
   Result<Done> unfinished_runs() {
     auto select = Statement::prepare(
-        connection_, "SELECT uuid, writer, suite FROM run WHERE status = 'running' AND origin = ''", kDoing);
+        connection_, "SELECT uuid, writer, suite FROM run WHERE status = 'running' AND origin = ''",
+        kExamining);
     if (!select) return Unexpected{select.error()};
     std::vector<std::pair<std::string, std::string>> dead;
     for (;;) {

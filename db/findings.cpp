@@ -11,17 +11,12 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr const char* kWriting = "writing a finding";
-constexpr const char* kReading = "reading findings";
+constexpr const char* kWritingFinding = "writing a finding";
+constexpr const char* kReadingFindings = "reading findings";
 constexpr const char* kColumns =
     "id, target, kind, claim, frames, message, (SELECT input FROM finding WHERE finding.id = v_findings.id), "
     "minimal, robots, cells, state, first_utc, last_utc, first_commit, last_commit, fixed_commit, "
     "times_found";
-
-std::optional<std::int64_t> optional_integer(const Statement& row, int column) {
-  if (row.is_null(column)) return std::nullopt;
-  return row.integer(column);
-}
 
 StoredFinding read_finding(const Statement& row) {
   StoredFinding stored;
@@ -35,8 +30,8 @@ StoredFinding read_finding(const Statement& row) {
   finding.message = row.text(column++);
   finding.input = row.text(column++);
   finding.minimal = row.text(column++);
-  finding.robots = optional_integer(row, column++);
-  finding.cells = optional_integer(row, column++);
+  finding.robots = row.optional_integer(column++);
+  finding.cells = row.optional_integer(column++);
   stored.state = row.text(column++);
   stored.first_utc = row.text(column++);
   stored.last_utc = row.text(column++);
@@ -60,7 +55,7 @@ Result<Done> add_event(sqlite::Connection& connection, std::int64_t id, const st
       connection,
       "INSERT OR IGNORE INTO finding_event (finding_id, happened_utc, event, commit_id, fuzz_run_id) "
       "VALUES (?, ?, ?, ?, ?)",
-      kWriting);
+      kWritingFinding);
   if (!insert) return Unexpected{insert.error()};
   return insert->bind(id, now_utc, event, commit, fuzz_run).run();
 }
@@ -72,7 +67,7 @@ Result<Done> insert_finding(sqlite::Connection& connection, const Finding& findi
       "INSERT INTO finding (target, signature, kind, claim, frames, message, state, first_utc, last_utc, "
       "first_commit_id, last_commit_id, times_found, input, minimal, robots, cells) VALUES "
       "(?1, ?2, ?3, ?4, ?5, ?6, 'new', ?7, ?7, ?8, ?8, 1, CAST(?9 AS BLOB), CAST(?10 AS BLOB), ?11, ?12)",
-      kWriting);
+      kWritingFinding);
   if (!insert) return Unexpected{insert.error()};
   return insert
       ->bind(finding.target, finding.signature(), finding.kind, finding.claim, finding.frames,
@@ -91,7 +86,7 @@ Result<Done> note_sighting(sqlite::Connection& connection, const StoredFinding& 
                                    "last_commit_id = CASE WHEN ?4 THEN ?6 ELSE last_commit_id END, "
                                    "fixed_commit_id = CASE WHEN ?4 THEN NULL WHEN state = 'fixed' THEN "
                                    "fixed_commit_id ELSE ?6 END WHERE id = ?1",
-                                   kWriting);
+                                   kWritingFinding);
   if (!update) return Unexpected{update.error()};
   if (auto done = update->bind(stored.id, state, found ? 1 : 0, breaks, now_utc, commit).run(); !done)
     return done;
@@ -104,7 +99,7 @@ Result<std::optional<StoredFinding>> find_by_signature(sqlite::Connection& conne
                                                        const Finding& finding) {
   auto select = Statement::prepare(
       connection, fmt::format("SELECT {} FROM v_findings WHERE target = ? AND signature = ?", kColumns),
-      kReading);
+      kReadingFindings);
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(finding.target, finding.signature()).step();
   if (!row) return Unexpected{row.error()};
@@ -117,7 +112,7 @@ Result<Done> keep_smaller(sqlite::Connection& connection, const StoredFinding& s
   if (finding.minimal.size() >= stored.finding.minimal.size()) return Done{};
   auto update = Statement::prepare(
       connection, "UPDATE finding SET minimal = CAST(?2 AS BLOB), robots = ?3, cells = ?4 WHERE id = ?1",
-      kWriting);
+      kWritingFinding);
   if (!update) return Unexpected{update.error()};
   return update->bind(stored.id, finding.minimal, finding.robots, finding.cells).run();
 }
@@ -168,7 +163,7 @@ Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_o
   auto select = Statement::prepare(
       database.connection(),
       fmt::format("SELECT {} FROM v_findings WHERE NOT ? OR state <> 'fixed' ORDER BY id", kColumns),
-      kReading);
+      kReadingFindings);
   if (!select) return Unexpected{select.error()};
   select->bind(open_only);
   std::vector<StoredFinding> findings;
@@ -181,8 +176,9 @@ Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_o
 }
 
 Result<StoredFinding> find_finding(Database& database, std::int64_t id) {
-  auto select = Statement::prepare(database.connection(),
-                                   fmt::format("SELECT {} FROM v_findings WHERE id = ?", kColumns), kReading);
+  auto select =
+      Statement::prepare(database.connection(),
+                         fmt::format("SELECT {} FROM v_findings WHERE id = ?", kColumns), kReadingFindings);
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(id).step();
   if (!row) return Unexpected{row.error()};
@@ -197,7 +193,7 @@ Result<Table> finding_events(Database& database, std::int64_t id) {
                                    "SELECT event, happened_utc, commit_.hash FROM finding_event LEFT JOIN "
                                    "commit_ ON commit_.id = commit_id "
                                    "WHERE finding_id = ? ORDER BY happened_utc",
-                                   kReading);
+                                   kReadingFindings);
   if (!select) return Unexpected{select.error()};
   select->bind(id);
   Table table{{"event", "happened_utc", "commit_hash"}, {}};

@@ -10,12 +10,6 @@ namespace {
 
 using sqlite::Statement;
 
-Value value_of(const Statement& row, int column, bool real) {
-  if (row.is_null(column)) return Null{};
-  if (real) return row.real(column);
-  return row.integer(column);
-}
-
 Result<Done> insert_snapshots(sqlite::Connection& connection, std::int64_t id,
                               const std::vector<FuzzSnapshot>& snapshots) {
   auto insert =

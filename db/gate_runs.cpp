@@ -14,7 +14,7 @@ namespace {
 using sqlite::Connection;
 using sqlite::Statement;
 
-constexpr std::string_view kWriting = "writing a gate run";
+constexpr std::string_view kWritingGateRun = "writing a gate run";
 
 Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, const std::string& uuid) {
   const auto machine = machine_id(connection, run.machine);
@@ -34,7 +34,7 @@ Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, cons
       "wall_time_ns, "
       "compared, differing, verdict, reason) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
       "?)",
-      kWriting);
+      kWritingGateRun);
   if (!insert) return Unexpected{insert.error()};
   insert->bind(uuid, run.started_utc, run.calibration ? "calibration" : "comparison", run.suite, run.method,
                *machine, *base_build, *head_build, *base_commit, *head_commit, to_bits(run.seed),
@@ -47,7 +47,7 @@ Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, cons
 Result<Done> insert_pairs(Connection& connection, std::int64_t cell, const GateCellRow& row) {
   auto insert = Statement::prepare(
       connection, "INSERT INTO gate_pair (gate_cell_id, stage, pair, slowdown) VALUES (?, ?, ?, ?)",
-      kWriting);
+      kWritingGateRun);
   if (!insert) return Unexpected{insert.error()};
   for (const int stage : {1, 2}) {
     const std::vector<double>& pairs = stage == 1 ? row.pairs : row.fresh_pairs;
@@ -65,7 +65,7 @@ Result<Done> insert_cells(Connection& connection, std::int64_t run, const std::v
       "INSERT INTO gate_cell (gate_run_id, position, case_id, slowdown, p_value, confirm_slowdown, "
       "confirm_p_value, "
       "at_most, noise, effect_floor, detectable, verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-      kWriting);
+      kWritingGateRun);
   if (!insert) return Unexpected{insert.error()};
   for (std::size_t position = 0; position < cells.size(); ++position) {
     const GateCellRow& row = cells[position];
@@ -92,7 +92,7 @@ Result<Done> insert_differences(Connection& connection, std::int64_t run,
       connection,
       "INSERT OR IGNORE INTO gate_difference (gate_run_id, case_id, instance_id, what, base, head) "
       "VALUES (?, ?, ?, ?, ?, ?)",
-      kWriting);
+      kWritingGateRun);
   if (!insert) return Unexpected{insert.error()};
   for (const GateDifferenceRow& row : differences) {
     const auto case_key = case_id(connection, row.parameters);

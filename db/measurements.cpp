@@ -11,7 +11,7 @@ namespace {
 using sqlite::Connection;
 using sqlite::Statement;
 
-constexpr const char* kDoing = "writing measurements";
+constexpr const char* kWritingMeasurements = "writing measurements";
 
 /// The key of the new run; none where it is there already.
 Result<std::optional<std::int64_t>> insert_run(Connection& connection, const MeasurementRun& run) {
@@ -23,7 +23,7 @@ Result<std::optional<std::int64_t>> insert_run(Connection& connection, const Mea
       "branch, "
       "command_line, options, seed, time_limit_s, writer) "
       "VALUES (?1, ?2, ?3, ?3, 'finished', ?4, ?5, ?6, ?7, ?8, '', 0, ?9, '') ON CONFLICT (uuid) DO NOTHING",
-      kDoing);
+      kWritingMeasurements);
   if (!insert) return Unexpected{insert.error()};
   insert->bind(run.uuid, run.info.suite, run.started_utc, keys->commit, keys->machine, keys->build,
                run.info.branch, run.info.command_line, kNoTimeLimit);
@@ -44,12 +44,12 @@ Result<MeasurementsRecorded> record_measurements(Database& database, const Measu
   auto insert = Statement::prepare(connection,
                                    "INSERT INTO measurement (run_id, benchmark, repetition, iterations, "
                                    "real_time_ns, cpu_time_ns, error) VALUES (?, ?, ?, ?, ?, ?, ?)",
-                                   kDoing);
+                                   kWritingMeasurements);
   if (!insert) return Unexpected{insert.error()};
   auto insert_counter = Statement::prepare(connection,
                                            "INSERT INTO measurement_counter (run_id, benchmark, repetition, "
                                            "counter, value) VALUES (?, ?, ?, ?, ?)",
-                                           kDoing);
+                                           kWritingMeasurements);
   if (!insert_counter) return Unexpected{insert_counter.error()};
   for (const Measurement& measurement : run.measurements) {
     std::optional<std::string> error;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
 
-constexpr const char* kDoing = "merging";
+constexpr const char* kMerging = "merging";
 
 struct Reference {
   std::string column;
@@ -36,7 +36,7 @@ struct TableShape {
 
 Result<std::vector<std::vector<std::string>>> rows_of(Connection& connection, const std::string& sql,
                                                       int columns) {
-  auto select = Statement::prepare(connection, sql, kDoing);
+  auto select = Statement::prepare(connection, sql, kMerging);
   if (!select) return Unexpected{select.error()};
   std::vector<std::vector<std::string>> rows;
   for (;;) {
@@ -182,7 +182,7 @@ class Merge {
     }
     std::string condition = "true";
     if (table.name == "cell") {
-      const auto last = connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kDoing);
+      const auto last = connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kMerging);
       if (!last) return Unexpected{last.error()};
       last_cell_ = *last;
     }
@@ -201,7 +201,7 @@ class Merge {
   Result<Done> map_keys(const TableShape& table, const Source& source) {
     const std::string map = fmt::format("temp.\"key_{}\"", table.name);
     if (auto done = connection_.execute(
-            fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kDoing);
+            fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kMerging);
         !done) {
       return done;
     }
@@ -261,13 +261,13 @@ class Merge {
         "WHERE s.target = finding.target AND s.signature = finding.signature)",
     };
     for (const char* sql : kUpdates) {
-      if (auto done = connection_.execute(sql, kDoing); !done) return done;
+      if (auto done = connection_.execute(sql, kMerging); !done) return done;
     }
     return Done{};
   }
 
   Result<Done> run(const std::string& sql) {
-    auto statement = Statement::prepare(connection_, sql, kDoing);
+    auto statement = Statement::prepare(connection_, sql, kMerging);
     if (!statement) return Unexpected{statement.error()};
     if (sql.find("?1") != std::string::npos) statement->bind(origin_);
     return statement->run();
@@ -290,9 +290,9 @@ void detach(Connection& connection, const std::vector<TableShape>& tables) {
   for (const TableShape& table : tables) {
     // Nothing depends on it: the next merge begins with maps of its own.
     static_cast<void>(
-        connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kDoing));
+        connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kMerging));
   }
-  static_cast<void>(connection.execute("DETACH shard", kDoing));
+  static_cast<void>(connection.execute("DETACH shard", kMerging));
 }
 
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,

@@ -12,24 +12,7 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr std::string_view kReading = "reading property runs";
-
-std::optional<std::string> null_if_empty(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  return text;
-}
-
-/// Values of one column that is a whole number or absent.
-std::optional<std::int64_t> optional_integer(const Statement& row, int column) {
-  if (row.is_null(column)) return std::nullopt;
-  return row.integer(column);
-}
-
-Value value_of(const Statement& row, int column, bool real) {
-  if (row.is_null(column)) return Null{};
-  if (real) return row.real(column);
-  return row.integer(column);
-}
+constexpr std::string_view kReadingProperties = "reading property runs";
 
 }  // namespace
 
@@ -93,7 +76,7 @@ Result<Table> list_property_runs(Database& database, const PropertyFilter& filte
                   "{} LIMIT ?3",
                   filter.every_run ? "v_property_runs" : "v_property_latest",
                   filter.every_run ? "started_utc DESC, id DESC" : "room, title"),
-      kReading);
+      kReadingProperties);
   if (!select) return Unexpected{select.error()};
   const std::int64_t no_limit = -1;
   select->bind(filter.room, filter.failed,
@@ -127,7 +110,7 @@ Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
       "plan_case, "
       "case_robots, case_cells, mutant, commit_hash, branch, dirty, host, "
       "compiler || ' ' || compiler_version, build_type, sanitizers FROM v_property_runs WHERE id = ?",
-      kReading);
+      kReadingProperties);
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(id).step();
   if (!row) return Unexpected{row.error()};
@@ -157,8 +140,8 @@ Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
   run.reproduce = select->optional_text(column++).value_or("");
   run.counterexample = select->optional_text(column++).value_or("");
   run.plan_case = select->optional_text(column++).value_or("");
-  run.case_robots = optional_integer(*select, column++);
-  run.case_cells = optional_integer(*select, column++);
+  run.case_robots = select->optional_integer(column++);
+  run.case_cells = select->optional_integer(column++);
   report.mutant = select->text(column++);
   report.commit_hash = select->optional_text(column++);
   report.branch = select->text(column++);
@@ -168,8 +151,9 @@ Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
   report.build_type = select->text(column++);
   report.sanitizers = select->text(column);
 
-  auto classes = Statement::prepare(
-      database.connection(), "SELECT class, cases FROM property_class WHERE property_run_id = ?", kReading);
+  auto classes = Statement::prepare(database.connection(),
+                                    "SELECT class, cases FROM property_class WHERE property_run_id = ?",
+                                    kReadingProperties);
   if (!classes) return Unexpected{classes.error()};
   classes->bind(id);
   for (;;) {
@@ -184,7 +168,7 @@ Result<std::int64_t> latest_property_failure(Database& database) {
   auto id = database.connection().query_int(
       "SELECT id FROM property_run WHERE status = 'failed' AND mutant = '' "
       "ORDER BY started_utc DESC, id DESC LIMIT 1",
-      kReading);
+      kReadingProperties);
   if (!id && id.error().kind == ErrorKind::kNotFound) {
     return Unexpected{Error{ErrorKind::kNotFound, fmt::format("{}: no property run failed, expected one",
                                                               database.path().string())}};

@@ -30,11 +30,6 @@ bool has_nan(const ResultRow& row) {
          is_nan(row.ssi_kept_s);
 }
 
-std::optional<std::string> null_if_empty(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  return text;
-}
-
 Result<Done> insert_run(Database& database, const RunInfo& info, const std::string& uuid) {
   auto& connection = database.connection();
   const auto keys = origin_keys(connection, info.commit, info.machine, info.build);

@@ -22,6 +22,17 @@ Result<std::int64_t> upsert(sqlite::Connection& connection, std::string_view sql
 
 }  // namespace
 
+std::optional<std::string> null_if_empty(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+Value value_of(const sqlite::Statement& row, int column, bool real) {
+  if (row.is_null(column)) return Null{};
+  if (real) return row.real(column);
+  return row.integer(column);
+}
+
 std::int64_t to_count(std::uint64_t value) {
   return static_cast<std::int64_t>(std::min(value, kNoCountLimit));
 }

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "db/error.hpp"
 #include "db/records.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/statement.hpp"
+#include "db/table.hpp"
 
 namespace sipplab::db {
 
@@ -17,6 +19,11 @@ namespace sipplab::db {
 /// there; hashes and seeds keep their 64 bits, so that a large one reads as negative.
 std::int64_t to_count(std::uint64_t value);
 std::int64_t to_bits(std::uint64_t value);
+
+/// An empty text is absent.
+std::optional<std::string> null_if_empty(const std::string& text);
+/// A number that may be absent.
+Value value_of(const sqlite::Statement& row, int column, bool real);
 
 /// The key of the row, which is written if it is missing. To be called within a
 /// write transaction.

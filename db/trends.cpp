@@ -21,7 +21,7 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr std::string_view kReading = "reading a trend";
+constexpr std::string_view kReadingTrend = "reading a trend";
 
 struct Sample {
   std::string commit;
@@ -153,7 +153,7 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
                              "AND (?10 IS NULL OR planner = ?10) "
                              "ORDER BY environment, planner, any_angle, connectedness, initial_order, "
                              "reschedule, ssi_s, robots, id",
-                         kReading);
+                         kReadingTrend);
   if (!select) return Unexpected{select.error()};
   select->bind(filter.id, filter.environment, filter.robots, filter.ssi_s, filter.reschedule, filter.order,
                filter.any_angle, filter.connectedness, filter.map, filter.planner);
@@ -228,7 +228,7 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
                   "AND (?4 IS NULL OR branch = ?4) "
                   "AND (?5 IS NULL OR host = ?5 OR substr(machine, 1, length(?5)) = ?5)",
                   context, kSampleColumns),
-      kReading);
+      kReadingTrend);
 }
 
 Result<std::vector<TrendSeries>> read_case_trends(Database& database, const TrendQuery& query) {
@@ -298,7 +298,7 @@ Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const Tre
   auto select = Statement::prepare(
       database.connection(),
       fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, commit_source(*query.metric)),
-      kReading);
+      kReadingTrend);
   if (!select) return Unexpected{select.error()};
   auto samples = read_samples(*select);
   if (!samples) return Unexpected{samples.error()};

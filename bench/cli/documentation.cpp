@@ -76,7 +76,8 @@ std::string manual_page(const CLI::App& program) {
   page += ".SH COMMANDS\n";
   for (const CLI::App* command : commands_of(program)) add_command(*command, page);
   return page +
-         ".SH ENVIRONMENT\n.TP\n.B SIPPLAB_DB\nThe history file if \\-\\-db is not given; else ./sipplab.db.\n";
+         ".SH ENVIRONMENT\n.TP\n.B SIPPLAB_DB\nThe history file if \\-\\-db is not given; else "
+         "./sipplab.db.\n";
 }
 
 /// What can follow the words of a command: its commands and its flags.
@@ -125,11 +126,15 @@ Command add_documentation_command(CLI::App& program) {
     std::string kind, file;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("kind", arguments->kind, "man or bash")->required()->check(CLI::IsMember({"man", "bash"}));
+  command.add_option("kind", arguments->kind, "man or bash")
+      ->required()
+      ->check(CLI::IsMember({"man", "bash"}));
   command.add_option("-o", arguments->file, "file to write")->required()->type_name("FILE");
   return {&command, [&program, arguments] {
-            const std::string text = arguments->kind == "man" ? manual_page(program) : bash_completion(program);
-            if (const auto error = write_file(arguments->file, text)) return fail(kBadUsage, error->message());
+            const std::string text =
+                arguments->kind == "man" ? manual_page(program) : bash_completion(program);
+            if (const auto error = write_file(arguments->file, text))
+              return fail(kBadUsage, error->message());
             return static_cast<int>(kSuccess);
           }};
 }

@@ -34,11 +34,6 @@ constexpr double kGraceS = 120;
 /// Without a budget of time a target is given a day.
 constexpr double kLongestS = 86'400;
 
-std::string text_of(const fs::path& path) {
-  const auto text = read_file(path.string());
-  return text ? *text : std::string();
-}
-
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -65,7 +60,7 @@ class TargetRun {
     run_.mode = options.mode;
     run_.seed = options.seed;
     run_.workers = options.mode == "nightly" ? options.workers : 1;
-    run_.target_hash = text_digest(text_of(program_.fuzzer()));
+    run_.target_hash = text_digest(bytes_or_none(program_.fuzzer()));
   }
 
   db::Result<bool> is_known() { return db::is_fuzzed_clean(database_, run_.target, run_.target_hash); }
@@ -160,7 +155,7 @@ class TargetRun {
   }
 
   void read_log() {
-    EngineLog log_read = parse_engine_log(text_of(log()));
+    EngineLog log_read = parse_engine_log(bytes_or_none(log()));
     for (const fuzz::Count& count : fuzz::read_counts(counts().string())) {
       run_.counts.push_back(
           {std::string(count.kind), std::string(count.name), static_cast<std::int64_t>(count.count)});
@@ -200,7 +195,7 @@ class TargetRun {
                                                   : nullptr;
       if (counter == nullptr) continue;  // slow units are in the statistics
       ++*counter;
-      std::string input = text_of(file);
+      std::string input = bytes_or_none(file);
       if (kind == "timeout" && is_quick_alone(input)) continue;
       inputs.emplace_back(kind, std::move(input));
     }

@@ -24,11 +24,6 @@ constexpr double kJudgeLimitS = 60;
 constexpr double kReduceLimitS = 300;
 constexpr unsigned kDrawLimitS = 10;
 
-std::string text_of(const fs::path& path) {
-  const auto text = read_file(path.string());
-  return text ? *text : std::string();
-}
-
 /// Runs `draw` in a child; what it returns comes back through a file.
 template <class Draw>
 std::optional<std::string> drawn_in_child(const Draw& draw) {
@@ -67,6 +62,11 @@ std::optional<std::string> drawn_in_child(const Draw& draw) {
 
 }  // namespace
 
+std::string bytes_or_none(const fs::path& path) {
+  const auto text = read_file(path.string());
+  return text ? *text : std::string();
+}
+
 TargetProgram::TargetProgram(fs::path programs, std::string target, fs::path scratch)
     : programs_(std::move(programs)), target_(std::move(target)), scratch_(std::move(scratch)) {}
 
@@ -96,7 +96,7 @@ std::string TargetProgram::reduce(const std::string& input) const {
   if (write_file(file.string(), input)) return input;
   const ProgramRun run = run_program({replayer().string(), "--reduce", file.string(), smaller.string()},
                                      {.log = scratch_ / "reduce.log", .limit_s = kReduceLimitS});
-  return run.started && run.exit_code == 0 ? text_of(smaller) : input;
+  return run.started && run.exit_code == 0 ? bytes_or_none(smaller) : input;
 }
 
 db::Finding finding_of(const TargetProgram& program, const std::string& target, const InputVerdict& verdict,

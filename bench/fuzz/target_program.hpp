@@ -9,6 +9,9 @@
 
 namespace sipplab::bench {
 
+/// Empty if the file cannot be read: what a killed program left.
+std::string bytes_or_none(const std::filesystem::path& path);
+
 enum class Verdict {
   kHolds,
   kBreaks,

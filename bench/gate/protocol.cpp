@@ -5,13 +5,13 @@
 namespace sipplab::bench {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr const char* kNotOurWords = "a line that is not what this program's workers say";
 
-json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-std::optional<double> optional_number(const json& object, const char* key) {
+std::optional<double> optional_number(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return std::nullopt;
   return found->get<double>();
@@ -30,14 +30,14 @@ template <class T, class Read>
 Expected<T, std::string> guarded(Read read) {
   try {
     return read();
-  } catch (const json::exception&) {
+  } catch (const Json::exception&) {
     return Unexpected{std::string(kNotOurWords)};
   }
 }
 
 }  // namespace
 
-json to_json(const PlannerOptions& options) {
+Json to_json(const PlannerOptions& options) {
   return {{"order", name(options.order)},
           {"reschedule", name(options.rescheduling)},
           {"ssi", format_ssi(options.ssi_s)},
@@ -55,7 +55,7 @@ json to_json(const PlannerOptions& options) {
           {"fallback", name(options.fallback)}};
 }
 
-Expected<PlannerOptions, std::string> options_from_json(const json& object) {
+Expected<PlannerOptions, std::string> options_from_json(const Json& object) {
   return guarded<PlannerOptions>([&object]() -> Expected<PlannerOptions, std::string> {
     PlannerOptions options;
     const auto order = parse_initial_order(object.at("order").get<std::string>());
@@ -87,7 +87,7 @@ Expected<PlannerOptions, std::string> options_from_json(const json& object) {
   });
 }
 
-json to_json(const WorkerGreeting& greeting) {
+Json to_json(const WorkerGreeting& greeting) {
   const db::BuildInfo& build = greeting.build;
   return {{"sipplab_gate", greeting.protocol},
           {"compiler", build.compiler},
@@ -103,7 +103,7 @@ json to_json(const WorkerGreeting& greeting) {
           {"injected_slowdown", greeting.injected_slowdown}};
 }
 
-Expected<WorkerGreeting, std::string> greeting_from_json(const json& object) {
+Expected<WorkerGreeting, std::string> greeting_from_json(const Json& object) {
   return guarded<WorkerGreeting>([&object]() -> Expected<WorkerGreeting, std::string> {
     WorkerGreeting greeting;
     greeting.protocol = object.at("sipplab_gate").get<int>();
@@ -128,9 +128,9 @@ Expected<WorkerGreeting, std::string> greeting_from_json(const json& object) {
   });
 }
 
-json to_json(const WorkerAnswer& answer) {
+Json to_json(const WorkerAnswer& answer) {
   const db::ResultRow& row = answer.row;
-  json object = {{"status", db::name(row.status)},
+  Json object = {{"status", db::name(row.status)},
                  {"tries", row.tries},
                  {"expansions", row.expansions},
                  {"generations", row.generations},
@@ -143,7 +143,7 @@ json to_json(const WorkerAnswer& answer) {
   return object;
 }
 
-Expected<WorkerAnswer, std::string> answer_from_json(const json& object) {
+Expected<WorkerAnswer, std::string> answer_from_json(const Json& object) {
   return guarded<WorkerAnswer>([&object]() -> Expected<WorkerAnswer, std::string> {
     WorkerAnswer answer;
     db::ResultRow& row = answer.row;

@@ -31,8 +31,6 @@ std::string file_name(const std::string& kind, const std::string& method) {
   return name;
 }
 
-constexpr double kMillisecondsPerSecond = 1e3;
-
 using Curves = std::map<double, std::vector<std::pair<double, double>>>;  // by start-safe interval
 
 Curves curves_of(const db::RunReport& run, const std::string& method, bool runtime) {

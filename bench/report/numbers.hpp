@@ -1,10 +1,15 @@
 // Numbers for people.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace sipplab::bench {
+
+inline constexpr double kMillisecondsPerSecond = 1e3;
+/// Digits of a commit that people read.
+inline constexpr std::size_t kHashLength = 10;
 
 /// Four significant digits, whole numbers below ten millions: "0.8571", "12.34", "123456", "1.2e+07".
 std::string short_number(double value);

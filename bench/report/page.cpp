@@ -13,7 +13,6 @@ namespace sipplab::bench {
 namespace {
 
 constexpr std::size_t kShortUuid = 8;
-constexpr std::size_t kHashLength = 10;
 constexpr std::size_t kMinuteLength = 16;  // "2026-01-31T12:00"
 /// A time that changes by less than this is not worth colour: what a quiet machine repeats.
 constexpr double kNotableTimeShare = 0.05;

@@ -12,7 +12,6 @@
 namespace sipplab::bench {
 namespace {
 
-constexpr double kMillisecondsPerSecond = 1e3;
 /// With more numbers of robots than this the axis is labelled at round numbers.
 constexpr std::size_t kMostTicks = 10;
 /// Digits of a run's UUID that tell runs apart.

@@ -20,7 +20,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 8> kBlocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 constexpr std::size_t kWideSparkline = 72;    // fits a terminal of 80 columns
 constexpr std::size_t kNarrowSparkline = 32;  // beside the other columns of the overview
-constexpr std::size_t kHashLength = 10;
 constexpr std::size_t kDateLength = 10;
 constexpr std::size_t kSubjectLength = 48;
 /// Labels on the x axis; more would run into each other.

@@ -17,8 +17,6 @@ using test::sample_instance;
 using test::sample_result;
 using test::sample_run;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 class Recording : public test::DatabaseTest {
  protected:
   ~Recording() override {
@@ -98,7 +96,7 @@ TEST_F(Recording, every_field_of_a_result_is_kept) {
 }
 
 TEST_F(Recording, cases_come_back_with_all_their_parameters) {
-  CaseInfo odd = sample_case(192, kInfinity);
+  CaseInfo odd = sample_case(192, test::kInfinity);
   odd.environment = "empty";
   odd.map_spec = "empty:32x32";
   odd.instance_set = "files";
@@ -109,7 +107,7 @@ TEST_F(Recording, cases_come_back_with_all_their_parameters) {
   odd.connectedness = 5;
   odd.radius_cells = 0.3;
   odd.speed_cells_per_s = 2;
-  odd.time_limit_s = kInfinity;
+  odd.time_limit_s = test::kInfinity;
   odd.max_expansions = 1000;
   odd.max_restarts = 10;
   odd.seed = std::numeric_limits<std::uint64_t>::max();
@@ -132,11 +130,11 @@ TEST_F(Recording, parameters_differ_in_one_field_only_and_are_two_cases) {
   other.max_restarts = 1;
   must(recorder.commit_case(sample_case(64)));
   must(recorder.commit_case(other));
-  must(recorder.commit_case(sample_case(64, kInfinity)));
+  must(recorder.commit_case(sample_case(64, test::kInfinity)));
   EXPECT_EQ(ask(file, "SELECT count(*) FROM case_"), "3");
   // A second run finds the same cases again.
   auto second = begin();
-  must(second.commit_case(sample_case(64, kInfinity)));
+  must(second.commit_case(sample_case(64, test::kInfinity)));
   EXPECT_EQ(ask(file, "SELECT count(*) FROM case_"), "3");
 }
 

@@ -4,7 +4,6 @@
 #include <sqlite3.h>
 
 #include <cmath>
-#include <limits>
 
 #include "db/queries.hpp"
 #include "db/tests/support.hpp"
@@ -12,7 +11,6 @@
 namespace sipplab::db::statistics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Sums of a few hundred terms lose some units in the last place.
 constexpr double kRelativeError = 1e-12;
 
@@ -26,8 +24,8 @@ TEST(Statistics, quantiles) {
   EXPECT_EQ(median({7}), 7);
   EXPECT_EQ(median({3, 1, 2}), 2);
   EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
-  EXPECT_EQ(median({2, 1, kInfinity}), 2);
-  EXPECT_EQ(median({1, kInfinity, kInfinity, kInfinity}), kInfinity);
+  EXPECT_EQ(median({2, 1, test::kInfinity}), 2);
+  EXPECT_EQ(median({1, test::kInfinity, test::kInfinity, test::kInfinity}), test::kInfinity);
   EXPECT_EQ(quantile({1, 2, 3, 4, 5}, 0), 1);
   EXPECT_EQ(quantile({1, 2, 3, 4, 5}, 1), 5);
   EXPECT_EQ(quantile({5, 4, 3, 2, 1}, 0.25), 2);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include "db/database.hpp"
@@ -12,6 +13,8 @@
 #include "db/sqlite/statement.hpp"
 
 namespace sipplab::db::test {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Each test has a folder of its own, which is removed after it.
 class DatabaseTest : public ::testing::Test {

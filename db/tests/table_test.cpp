@@ -3,18 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "db/tests/support.hpp"
 
 namespace sipplab::db {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 const Table kTable{{"name", "n", "x"},
                    {{std::string{"warehouse"}, std::int64_t{64}, 0.1 + 0.2},
-                    {std::string{"a,\"b\"\nc"}, Null{}, kInfinity},
-                    {std::string{}, std::int64_t{-5}, -kInfinity},
+                    {std::string{"a,\"b\"\nc"}, Null{}, test::kInfinity},
+                    {std::string{}, std::int64_t{-5}, -test::kInfinity},
                     {std::string{"größe"}, std::int64_t{7}, 5.0}}};
 
 TEST(Table, aligned) {

@@ -39,6 +39,9 @@ class Random {
     return result;
   }
 
+  /// True once in `n` draws. REQUIRES: n > 0.
+  bool one_in(std::uint64_t n) { return below(n) == 0; }
+
   /// Uniform over 0 .. bound - 1, without bias. REQUIRES: bound > 0.
   std::uint64_t below(std::uint64_t bound) {
     PLANNER_ASSERT(bound > 0);

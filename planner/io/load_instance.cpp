@@ -19,8 +19,7 @@ namespace {
 enum class TextFormat { kXml, kMovingaiMap, kMovingaiScenario, kUnknown };
 
 TextFormat format_of(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   const std::string_view head = trimmed(text.substr(0, 4096));  // no format begins with more blanks than that
   if (head.substr(0, 1) == "<") return TextFormat::kXml;
   const std::string_view word = head.substr(0, head.find_first_of(" \t\r\n"));

@@ -74,6 +74,11 @@ std::string in_quotes(std::string_view token) {
   return "'" + shown + (token.size() > kShown ? "...'" : "'");
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
 bool is_valid_utf8(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {

@@ -27,6 +27,11 @@ void append_real(std::string& out, double value);
 /// person wants to read.
 std::string in_quotes(std::string_view token);
 
+/// Some editors begin a text with it; readers pass over it.
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+/// What follows a byte order mark, where there is one.
+std::string_view without_byte_order_mark(std::string_view text);
+
 bool is_valid_utf8(std::string_view text);
 
 /// Byte offsets to lines counted from 1.

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "planner/io/text.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -68,8 +70,6 @@ std::optional<InputError> write_directly(const std::string& path, std::string_vi
 
 constexpr mode_t kNewFileMode = 0666;  // less what the user's umask takes away
 constexpr mode_t kPermissionBits = 07777;
-
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace
 

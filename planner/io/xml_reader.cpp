@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "planner/io/text.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr const char* kIntegerRangeWords = "an integer between -2147483648 and 2
 /// As many as a person reads; a file in a wrong dialect could give one for each
 /// of its elements.
 constexpr std::size_t kMaxWarnings = 20;
-
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool contains(std::initializer_list<std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -44,7 +44,7 @@ std::string describe(const pugi::xml_parse_result& result) {
 }  // namespace
 
 Input<std::unique_ptr<XmlReader>> XmlReader::parse(std::string_view text, const std::string& file_name) {
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   std::unique_ptr<XmlReader> reader(new XmlReader(text, file_name));
   const auto error_at = [&](std::size_t offset, std::string what, std::string expected) {
     return Unexpected{

@@ -12,7 +12,7 @@ namespace sipplab {
 namespace {
 
 /// Width of a bucket of OPEN, in cells of way; as in SippSearch.
-constexpr double kBucketCells = 0.25;
+constexpr double kTurningBucketCells = 0.25;
 
 /// What `to_goal_s` needs of an agent, apart from a search.
 struct Bound {
@@ -94,7 +94,7 @@ void TurningSearch::begin(const Agent& agent, ReservationTable& reservations) {
   stays_.clear();
   states_.clear();
   open_.begin(options_.weight * to_goal_s(agent.start, agent.start_heading_deg),
-              kBucketCells / agent.speed_cells_per_s);
+              kTurningBucketCells / agent.speed_cells_per_s);
 }
 
 TurningSearch::CellStays TurningSearch::stays_of(Cell cell) {

@@ -15,7 +15,7 @@ namespace {
 /// Cells. Rounding of places by which starts are looked up.
 constexpr double kLookupMarginCells = 1e-6;
 
-struct TimeSpan {
+struct GuardedSpan {
   double begin_s = 0;
   double end_s = -1;  // before begin_s: empty
 };
@@ -23,22 +23,22 @@ struct TimeSpan {
 /// The parts of [begin_s, end_s] at which a motion is at least `radius_cells` from a
 /// place: the squared distance is a parabola in time, and the time between its two
 /// crossings of radius^2 is left out.
-std::array<TimeSpan, 2> time_outside(const LinearMotion& motion, Vec2 place, double radius_cells,
-                                     double begin_s, double end_s) {
+std::array<GuardedSpan, 2> time_outside(const LinearMotion& motion, Vec2 place, double radius_cells,
+                                        double begin_s, double end_s) {
   const Vec2 apart = motion.at(begin_s) - place;
   const double squared_speed = squared_norm(motion.velocity_cells_per_s);
   if (!(squared_speed > 0)) {
-    if (norm(apart) >= radius_cells) return {TimeSpan{begin_s, end_s}, TimeSpan{}};
+    if (norm(apart) >= radius_cells) return {GuardedSpan{begin_s, end_s}, GuardedSpan{}};
     return {};
   }
   const double nearest_s = begin_s - dot(apart, motion.velocity_cells_per_s) / squared_speed;
   const double off_line = cross(apart, motion.velocity_cells_per_s);
   const double squared_half_s =
       (radius_cells * radius_cells - off_line * off_line / squared_speed) / squared_speed;
-  if (!(squared_half_s > 0)) return {TimeSpan{begin_s, end_s}, TimeSpan{}};
+  if (!(squared_half_s > 0)) return {GuardedSpan{begin_s, end_s}, GuardedSpan{}};
   const double half_s = std::sqrt(squared_half_s);
-  return {TimeSpan{begin_s, std::min(end_s, nearest_s - half_s)},
-          TimeSpan{std::max(begin_s, nearest_s + half_s), end_s}};
+  return {GuardedSpan{begin_s, std::min(end_s, nearest_s - half_s)},
+          GuardedSpan{std::max(begin_s, nearest_s + half_s), end_s}};
 }
 
 /// All starts, in buckets.
@@ -108,7 +108,7 @@ std::vector<StartIntrusion> check_start_safe_intervals(const Instance& instance,
           };
           if (std::isinf(ssi_s)) {
             const Vec2 goal = centre(instance.agents[agent].goal);
-            for (const TimeSpan& part : time_outside(motion, goal, contact_cells, step.begin_s, end_s)) {
+            for (const GuardedSpan& part : time_outside(motion, goal, contact_cells, step.begin_s, end_s)) {
               look_at(part.begin_s, part.end_s);
             }
           } else {

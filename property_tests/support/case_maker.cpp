@@ -24,8 +24,6 @@ std::int32_t draw_between(Random& random, std::int32_t least, std::int32_t most)
   return least + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(most - least + 1)));
 }
 
-bool one_in(Random& random, std::uint64_t n) { return random.below(n) == 0; }
-
 /// Adds the agent unless that breaks a rule.
 bool try_add(Instance& instance, Agent agent) {
   agent.id = std::to_string(instance.agents.size());
@@ -46,7 +44,7 @@ void add_anywhere(Random& random, Instance& instance, const Agent& body) {
 
 void block_some(Random& random, GridMap& map, std::uint64_t one_cell_in) {
   for (std::size_t i = 0; i < map.cell_count(); ++i) {
-    if (one_in(random, one_cell_in)) map.set_blocked(map.cell(i), true);
+    if (random.one_in(one_cell_in)) map.set_blocked(map.cell(i), true);
   }
 }
 
@@ -64,7 +62,7 @@ Instance dense(Random& random, int size) {
   Instance instance;
   const std::int32_t most = 3 + size / 40;
   instance.map = GridMap(draw_between(random, 2, most), draw_between(random, 2, most));
-  if (one_in(random, 3)) block_some(random, instance.map, 8);
+  if (random.one_in(3)) block_some(random, instance.map, 8);
   const auto cells = static_cast<std::int32_t>(instance.map.cell_count());
   const std::int32_t robots = draw_between(random, cells / 2, cells * 4 / 5);
   for (std::int32_t i = 0; i < robots; ++i) add_anywhere(random, instance, {});
@@ -76,8 +74,8 @@ Instance corridor(Random& random, int size) {
   const std::int32_t length = draw_between(random, 4, 6 + size / 10);
   instance.map = GridMap(length, 3);
   for (std::int32_t x = 0; x < length; ++x) {
-    instance.map.set_blocked({x, 0}, !one_in(random, 4));
-    instance.map.set_blocked({x, 2}, !one_in(random, 4));
+    instance.map.set_blocked({x, 0}, !random.one_in(4));
+    instance.map.set_blocked({x, 2}, !random.one_in(4));
   }
   const std::int32_t robots = draw_between(random, 2, 3 + size / 40);
   for (std::int32_t i = 0; i < robots; ++i) add_anywhere(random, instance, {});
@@ -108,16 +106,16 @@ Instance convoy(Random& random, int size) {
   const std::int32_t shift = draw_between(random, 1, 4);
   const std::int32_t bend = draw_between(random, 0, 2);
   instance.map = GridMap(robots + shift, 1 + bend);
-  const double slow = one_in(random, 3) ? draw_speed(random) : 1.0;
+  const double slow = random.one_in(3) ? draw_speed(random) : 1.0;
   for (std::int32_t i = 0; i < robots; ++i) {
     Agent agent;
     agent.start = {i, 0};
-    agent.goal = {i + shift, one_in(random, 2) ? 0 : bend};
+    agent.goal = {i + shift, random.one_in(2) ? 0 : bend};
     agent.speed_cells_per_s = i == 0 ? slow : 1.0;
     try_add(instance, agent);
   }
   // Somebody who comes the other way.
-  if (one_in(random, 2)) add_anywhere(random, instance, {});
+  if (random.one_in(2)) add_anywhere(random, instance, {});
   return instance;
 }
 
@@ -125,7 +123,7 @@ Instance mixed_bodies(Random& random, int size) {
   Instance instance;
   const std::int32_t most = 6 + size / 15;
   instance.map = GridMap(draw_between(random, 4, most), draw_between(random, 4, most));
-  if (one_in(random, 2)) block_some(random, instance.map, 10);
+  if (random.one_in(2)) block_some(random, instance.map, 10);
   const std::int32_t robots = draw_between(random, 1, 3 + size / 25);
   for (std::int32_t i = 0; i < robots; ++i) {
     Agent body;
@@ -145,7 +143,7 @@ void add_obstacle(Random& random, Instance& instance) {
   const std::uint64_t motions = random.below(4);
   for (std::uint64_t i = 0; i < motions; ++i) {
     const double begin_s = trajectory.arrival_s();
-    const Cell to = one_in(random, 4) ? trajectory.end() : draw_cell(random, instance.map);
+    const Cell to = random.one_in(4) ? trajectory.end() : draw_cell(random, instance.map);
     trajectory.motions.push_back({begin_s, begin_s + 0.5 + draw_eighths(random, 4), trajectory.end(), to});
   }
   instance.obstacles.push_back(std::move(obstacle));
@@ -168,7 +166,7 @@ PlannerOptions draw_options(Random& random) {
   options.order = static_cast<InitialOrder>(random.below(4));
   options.rescheduling = static_cast<Rescheduling>(random.below(3));
   options.ssi_s = draw_ssi(random);
-  options.any_angle = !one_in(random, 3);
+  options.any_angle = !random.one_in(3);
   options.connectedness = draw_between(random, 2, 5);
   options.seed = random.below(1000);
   options.time_limit_s = std::numeric_limits<double>::infinity();
@@ -219,9 +217,9 @@ PlanCase make_case(CaseFamily family, int size, std::uint64_t seed) {
     return Instance{};
   };
   plan_case.instance = draw_instance();
-  if (one_in(random, 4)) add_obstacle(random, plan_case.instance);
-  if (one_in(random, 12)) add_obstacle(random, plan_case.instance);
-  if (one_in(random, 6)) plan_case.options.weight = 1 + draw_eighths(random, 2);
+  if (random.one_in(4)) add_obstacle(random, plan_case.instance);
+  if (random.one_in(12)) add_obstacle(random, plan_case.instance);
+  if (random.one_in(6)) plan_case.options.weight = 1 + draw_eighths(random, 2);
   return plan_case;
 }
 
@@ -234,9 +232,9 @@ PlanCase with_motion_rules(PlanCase plan_case, std::uint64_t seed) {
   }
   MotionRules& rules = plan_case.options.rules;
   rules.turns = true;
-  if (one_in(random, 4)) rules.wait_before_move_s = draw_eighths(random, 1);
-  if (one_in(random, 4)) rules.inflate_distance_cells = draw_eighths(random, 1);
-  if (one_in(random, 4)) rules.inflate_time_s = draw_eighths(random, 1);
+  if (random.one_in(4)) rules.wait_before_move_s = draw_eighths(random, 1);
+  if (random.one_in(4)) rules.inflate_distance_cells = draw_eighths(random, 1);
+  if (random.one_in(4)) rules.inflate_time_s = draw_eighths(random, 1);
   return plan_case;
 }
 
@@ -261,7 +259,7 @@ double draw_speed(Random& random) {
 double draw_heading(Random& random) {
   constexpr double kEighthTurnDeg = 45;
   const auto eighths = static_cast<double>(random.below(8));
-  return eighths * kEighthTurnDeg + (one_in(random, 4) ? draw_eighths(random, 44) : 0.0);
+  return eighths * kEighthTurnDeg + (random.one_in(4) ? draw_eighths(random, 44) : 0.0);
 }
 
 double draw_rotation_speed(Random& random) {
@@ -269,7 +267,7 @@ double draw_rotation_speed(Random& random) {
 }
 
 std::optional<double> draw_goal_heading(Random& random) {
-  if (one_in(random, 2)) return std::nullopt;
+  if (random.one_in(2)) return std::nullopt;
   return draw_heading(random);
 }
 

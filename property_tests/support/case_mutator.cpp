@@ -23,8 +23,6 @@ constexpr std::uint64_t kLonelyOneIn = 16;
 /// Size of fresh cases, of 100: maps of about five cells a side.
 constexpr int kFreshSize = 25;
 
-bool one_in(Random& random, std::uint64_t n) { return random.below(n) == 0; }
-
 template <class Item>
 Item& pick(Random& random, std::vector<Item>& items) {
   return items[static_cast<std::size_t>(random.below(items.size()))];
@@ -38,7 +36,7 @@ Cell step_from(Random& random, const GridMap& map, Cell cell) {
 }
 
 Cell near_or_far(Random& random, const GridMap& map, Cell cell) {
-  return one_in(random, 2) ? draw_cell(random, map) : step_from(random, map, cell);
+  return random.one_in(2) ? draw_cell(random, map) : step_from(random, map, cell);
 }
 
 void number(Instance& instance) {
@@ -52,11 +50,11 @@ void add_robot(Random& random, Instance& instance) {
   if (instance.agents.size() >= kMutatedRobots) return;
   Agent agent;
   // Beside another one, or anywhere.
-  const bool beside = !instance.agents.empty() && one_in(random, 2);
+  const bool beside = !instance.agents.empty() && random.one_in(2);
   if (beside) agent = pick(random, instance.agents);
   agent.start = beside ? step_from(random, instance.map, agent.start) : draw_cell(random, instance.map);
-  agent.goal = beside && one_in(random, 2) ? step_from(random, instance.map, agent.goal)
-                                           : draw_cell(random, instance.map);
+  agent.goal = beside && random.one_in(2) ? step_from(random, instance.map, agent.goal)
+                                          : draw_cell(random, instance.map);
   instance.agents.push_back(agent);
 }
 
@@ -81,10 +79,10 @@ void change_robot(Random& random, Instance& instance) {
       agent.goal = pick(random, agents).start;  // onto a start that may be protected
       break;
     case 5:
-      agent.radius_cells = one_in(random, 2) ? kDefaultRadiusCells : draw_radius(random);
+      agent.radius_cells = random.one_in(2) ? kDefaultRadiusCells : draw_radius(random);
       break;
     case 6:
-      agent.speed_cells_per_s = one_in(random, 2) ? kDefaultSpeedCellsPerS : draw_speed(random);
+      agent.speed_cells_per_s = random.one_in(2) ? kDefaultSpeedCellsPerS : draw_speed(random);
       break;
     case 7:
       agent.start_heading_deg = draw_heading(random);
@@ -132,16 +130,16 @@ void resize_map(Random& random, Instance& instance) {
 }
 
 void change_map(Random& random, Instance& instance) {
-  if (one_in(random, 3)) return resize_map(random, instance);
+  if (random.one_in(3)) return resize_map(random, instance);
   const Cell cell = draw_cell(random, instance.map);
   instance.map.set_blocked(cell, !instance.map.is_blocked(cell));
 }
 
 void change_obstacle(Random& random, Instance& instance) {
   auto& obstacles = instance.obstacles;
-  if (obstacles.empty() || (obstacles.size() < kMutatedObstacles && one_in(random, 4))) {
+  if (obstacles.empty() || (obstacles.size() < kMutatedObstacles && random.one_in(4))) {
     DynamicObstacle& added = obstacles.emplace_back();
-    added.radius_cells = one_in(random, 2) ? kDefaultRadiusCells : draw_radius(random);
+    added.radius_cells = random.one_in(2) ? kDefaultRadiusCells : draw_radius(random);
     added.trajectory.start = draw_cell(random, instance.map);
   }
   DynamicObstacle& obstacle = pick(random, obstacles);
@@ -161,7 +159,7 @@ void change_obstacle(Random& random, Instance& instance) {
       if (trajectory.motions.size() >= kMutatedMotions) break;
       const double begin_s = trajectory.arrival_s();
       const Cell to =
-          one_in(random, 4) ? trajectory.end() : near_or_far(random, instance.map, trajectory.end());
+          random.one_in(4) ? trajectory.end() : near_or_far(random, instance.map, trajectory.end());
       trajectory.motions.push_back(
           {begin_s, begin_s + 0.125 + draw_eighths(random, 4), trajectory.end(), to});
     }
@@ -177,7 +175,7 @@ void change_options(Random& random, PlannerOptions& options) {
                                              Rescheduling::kRandom};
   switch (random.below(9)) {
     case 0:
-      options.ssi_s = one_in(random, 4) ? kInfiniteSsi : one_in(random, 4) ? 0 : draw_eighths(random, 8);
+      options.ssi_s = random.one_in(4) ? kInfiniteSsi : random.one_in(4) ? 0 : draw_eighths(random, 8);
       break;
     case 1:
       options.order = kOrders[random.below(std::size(kOrders))];
@@ -195,13 +193,13 @@ void change_options(Random& random, PlannerOptions& options) {
       options.rules.turns = !options.rules.turns;
       break;
     case 6:
-      options.rules.wait_before_move_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      options.rules.wait_before_move_s = random.one_in(2) ? 0 : draw_eighths(random, 1);
       if (options.rescheduling == Rescheduling::kEjection) break;  // knows nothing of inflation
-      options.rules.inflate_distance_cells = one_in(random, 2) ? 0 : draw_eighths(random, 1);
-      options.rules.inflate_time_s = one_in(random, 2) ? 0 : draw_eighths(random, 1);
+      options.rules.inflate_distance_cells = random.one_in(2) ? 0 : draw_eighths(random, 1);
+      options.rules.inflate_time_s = random.one_in(2) ? 0 : draw_eighths(random, 1);
       break;
     case 7:
-      options.weight = one_in(random, 2) ? 1 : 1 + draw_eighths(random, 2);
+      options.weight = random.one_in(2) ? 1 : 1 + draw_eighths(random, 2);
       break;
     default:
       options.seed = random.below(1000);
@@ -244,7 +242,7 @@ PlanCase fresh_case(Random& random) {
     const auto family = static_cast<CaseFamily>(random.below(kCaseFamilies));
     plan_case = make_case(family, static_cast<int>(random.below(kFreshSize)), random.next());
   } while (!is_small_case(plan_case));
-  if (!one_in(random, kLonelyOneIn)) fill_up(random, plan_case.instance);
+  if (!random.one_in(kLonelyOneIn)) fill_up(random, plan_case.instance);
   bound(plan_case.options);
   return plan_case;
 }
@@ -262,7 +260,7 @@ bool is_small_case(const PlanCase& plan_case) {
 }
 
 PlanCase mutate_case(const PlanCase& plan_case, Random& random) {
-  if (one_in(random, kFreshOneIn) || !is_small_case(plan_case) || find_error(plan_case.instance)) {
+  if (random.one_in(kFreshOneIn) || !is_small_case(plan_case) || find_error(plan_case.instance)) {
     return fresh_case(random);
   }
   PlanCase mutated = plan_case;
@@ -276,8 +274,8 @@ PlanCase mutate_case(const PlanCase& plan_case, Random& random) {
       break;
     }
   }
-  if (!one_in(random, kLonelyOneIn)) fill_up(random, mutated.instance);
-  if (one_in(random, kReseededOneIn)) mutated.options.seed = random.below(1000);
+  if (!random.one_in(kLonelyOneIn)) fill_up(random, mutated.instance);
+  if (random.one_in(kReseededOneIn)) mutated.options.seed = random.below(1000);
   bound(mutated.options);
   return mutated;
 }
@@ -289,20 +287,20 @@ PlanCase cross_cases(const PlanCase& one, const PlanCase& other, Random& random)
   // Robots of one as they are, as far as the coin says; then those of the other that fit.
   for (const PlanCase* parent : {&one, &other}) {
     for (const Agent& agent : parent->instance.agents) {
-      if (crossed.instance.agents.size() >= kMutatedRobots || one_in(random, 2)) continue;
+      if (crossed.instance.agents.size() >= kMutatedRobots || random.one_in(2)) continue;
       crossed.instance.agents.push_back(agent);
       if (find_error(crossed.instance)) crossed.instance.agents.pop_back();
     }
   }
-  if (one_in(random, 2)) {
+  if (random.one_in(2)) {
     crossed.instance.obstacles = other.instance.obstacles;
     if (find_error(crossed.instance) || !is_small_case(crossed)) {
       crossed.instance.obstacles = one.instance.obstacles;
     }
   }
-  if (one_in(random, 2)) crossed.options = other.options;
+  if (random.one_in(2)) crossed.options = other.options;
   number(crossed.instance);
-  if (!one_in(random, kLonelyOneIn)) fill_up(random, crossed.instance);
+  if (!random.one_in(kLonelyOneIn)) fill_up(random, crossed.instance);
   bound(crossed.options);
   return crossed;
 }

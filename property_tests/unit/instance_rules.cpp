@@ -5,16 +5,13 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "planner/core/random.hpp"
 #include "property_tests/support/case_codec.hpp"
+#include "property_tests/support/extremes.hpp"
 
 namespace sipplab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Instance instance_of(const char* text) {
   const auto plan_case = decode_case(text);

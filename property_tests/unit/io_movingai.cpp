@@ -8,7 +8,7 @@
 namespace sipplab {
 namespace {
 
-std::string map_error(const std::string& text) {
+std::string movingai_map_error(const std::string& text) {
   const Input<GridMap> map = parse_movingai_map(text, "m");
   return map ? "no error" : map.error().message();
 }
@@ -46,31 +46,33 @@ TEST(IoMovingai, WrittenMapsReadBackEqual) {
 
 TEST(IoMovingai, BadMapsAreOneLineThatNamesTheLine) {
   const std::string head = "type octile\nheight 2\nwidth 3\nmap\n";
-  EXPECT_EQ(map_error(""),
+  EXPECT_EQ(movingai_map_error(""),
             "m:1: the text ends within the header of the map, expected a line 'map' and rows of cells");
-  EXPECT_EQ(map_error("type octile\nheight 2\nmap\n"),
+  EXPECT_EQ(movingai_map_error("type octile\nheight 2\nmap\n"),
             "m:3: no width before the map, expected lines 'height H' and 'width W'");
   EXPECT_EQ(
-      map_error("type octile\nheigth 2\n"),
+      movingai_map_error("type octile\nheigth 2\n"),
       "m:2: line 'heigth 2' in the header of a map, expected 'type octile', 'height H', 'width W' or 'map'");
-  EXPECT_EQ(map_error("type octile\nheight -2\n"), "m:2: height -2, expected 1 to 8192");
-  EXPECT_EQ(map_error("type octile\nheight nan\n"), "m:2: height 'nan', expected a number of cells");
-  EXPECT_EQ(map_error("type octile\nheight 1000000000\nwidth 1000000000\nmap\n"),
+  EXPECT_EQ(movingai_map_error("type octile\nheight -2\n"), "m:2: height -2, expected 1 to 8192");
+  EXPECT_EQ(movingai_map_error("type octile\nheight nan\n"), "m:2: height 'nan', expected a number of cells");
+  EXPECT_EQ(movingai_map_error("type octile\nheight 1000000000\nwidth 1000000000\nmap\n"),
             "m:2: height 1000000000, expected 1 to 8192");
-  EXPECT_EQ(map_error("type octile\nheight 2\nheight 2\n"), "m:3: a second height, expected one");
-  EXPECT_EQ(map_error(head + "...\n"), "m:6: the text ends after 1 rows of the map, expected 2 rows");
-  EXPECT_EQ(map_error(head + "...\n....\n"), "m:6: row 1 has 4 cells, expected 3");
-  EXPECT_EQ(map_error(head + "..\n...\n"), "m:5: row 0 has 2 cells, expected 3");
-  EXPECT_EQ(map_error(head + "...\n\n...\n"), "m:6: row 1 has 0 cells, expected 3");
+  EXPECT_EQ(movingai_map_error("type octile\nheight 2\nheight 2\n"), "m:3: a second height, expected one");
+  EXPECT_EQ(movingai_map_error(head + "...\n"),
+            "m:6: the text ends after 1 rows of the map, expected 2 rows");
+  EXPECT_EQ(movingai_map_error(head + "...\n....\n"), "m:6: row 1 has 4 cells, expected 3");
+  EXPECT_EQ(movingai_map_error(head + "..\n...\n"), "m:5: row 0 has 2 cells, expected 3");
+  EXPECT_EQ(movingai_map_error(head + "...\n\n...\n"), "m:6: row 1 has 0 cells, expected 3");
   EXPECT_EQ(
-      map_error(head + "...\n. .\n"),
+      movingai_map_error(head + "...\n. .\n"),
       "m:6: unprintable cell in row 1, expected '.', 'G' or 'S' where free, another visible character where "
       "blocked");
-  EXPECT_EQ(map_error(head + "...\n...\n\n...\n"), "m:8: text '...' after the last row, expected 2 rows");
+  EXPECT_EQ(movingai_map_error(head + "...\n...\n\n...\n"),
+            "m:8: text '...' after the last row, expected 2 rows");
 }
 
 TEST(IoMovingai, AnnouncedSizesAreNotAllocatedBeforeTheyAreSeen) {
-  EXPECT_EQ(map_error("type octile\nheight 8192\nwidth 8192\nmap\n"),
+  EXPECT_EQ(movingai_map_error("type octile\nheight 8192\nwidth 8192\nmap\n"),
             "m:5: the text ends after 0 rows of the map, expected 8192 rows");
 }
 

@@ -26,7 +26,9 @@ std::string agent_error(const std::string& agent) {
   return error_of(in_root("<agents>\n" + agent + "\n</agents>\n"));
 }
 
-std::string map_error(const std::string& grid) { return error_of(in_root("<map>\n" + grid + "\n</map>\n")); }
+std::string xml_map_error(const std::string& grid) {
+  return error_of(in_root("<map>\n" + grid + "\n</map>\n"));
+}
 
 TEST(IoXmlInstance, DefaultsAreThoseOfThePublishedPlanner) {
   const Input<InstanceParts> parts = parse_xml_instance(in_root(kAgents), "f");
@@ -110,25 +112,26 @@ TEST(IoXmlInstance, CountsMustAgree) {
 }
 
 TEST(IoXmlInstance, BadMapsNameTheirLine) {
-  EXPECT_EQ(map_error(""), "f:2: no <grid> in <map>, expected one");
-  EXPECT_EQ(map_error("<grid width=\"2\"><row>0 0</row></grid>"),
+  EXPECT_EQ(xml_map_error(""), "f:2: no <grid> in <map>, expected one");
+  EXPECT_EQ(xml_map_error("<grid width=\"2\"><row>0 0</row></grid>"),
             "f:3: no height in <grid>, expected an integer");
-  EXPECT_EQ(map_error("<grid width=\"-2\" height=\"1\"/>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"-2\" height=\"1\"/>"),
             "f:3: map of -2 x 1 cells, expected 1 to 8192 along each side");
-  EXPECT_EQ(map_error("<grid width=\"1000000000\" height=\"1000000000\"/>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"1000000000\" height=\"1000000000\"/>"),
             "f:3: map of 1000000000 x 1000000000 cells, expected 1 to 8192 along each side");
-  EXPECT_EQ(map_error("<grid width=\"nan\" height=\"1\"/>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"nan\" height=\"1\"/>"),
             "f:3: width 'nan' in <grid>, expected an integer");
-  EXPECT_EQ(map_error("<grid width=\"2\" height=\"2\">\n<row>0 0</row></grid>"), "f:3: 1 rows, expected 2");
-  EXPECT_EQ(map_error("<grid width=\"2\" height=\"1\">\n<row>0 0 0</row></grid>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"2\" height=\"2\">\n<row>0 0</row></grid>"),
+            "f:3: 1 rows, expected 2");
+  EXPECT_EQ(xml_map_error("<grid width=\"2\" height=\"1\">\n<row>0 0 0</row></grid>"),
             "f:4: row 0 has 3 cells, expected 2 cells");
-  EXPECT_EQ(map_error("<grid width=\"2\" height=\"1\">\n<row>0</row></grid>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"2\" height=\"1\">\n<row>0</row></grid>"),
             "f:4: row 0 has 1 cells, expected 2 cells");
-  EXPECT_EQ(map_error("<grid width=\"2\" height=\"2\">\n<row>0 0</row>\n<row/></grid>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"2\" height=\"2\">\n<row>0 0</row>\n<row/></grid>"),
             "f:5: row 1 has no text, expected 2 cells");
-  EXPECT_EQ(map_error("<grid width=\"2\" height=\"1\">\n<row>0 *</row></grid>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"2\" height=\"1\">\n<row>0 *</row></grid>"),
             "f:4: cell '*' in row 0, expected 0 where free, another integer where blocked");
-  EXPECT_EQ(map_error("<grid width=\"1\" height=\"1\"><row>0</row></grid>\n<grid/>"),
+  EXPECT_EQ(xml_map_error("<grid width=\"1\" height=\"1\"><row>0</row></grid>\n<grid/>"),
             "f:4: a second <grid> in <map>, expected one");
 }
 

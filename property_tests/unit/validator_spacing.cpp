@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "planner/validator/validator.hpp"
+#include "property_tests/support/extremes.hpp"
 
 namespace sipplab {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Robot 0 goes along the upper row. Robot 1 waits below (2, 0) and goes there at `begin_s`.
 struct Follower {

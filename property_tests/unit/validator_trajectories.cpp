@@ -3,17 +3,14 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "planner/core/tolerances.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/case_codec.hpp"
+#include "property_tests/support/extremes.hpp"
 
 namespace sipplab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// One robot that goes right, waits and goes down; everything about it is right.
 struct OneRobot {
