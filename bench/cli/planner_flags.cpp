@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "bench/cli/console.hpp"
@@ -27,8 +29,16 @@ std::string expected(const std::string& text, const std::string& what) {
 /// flag bound to an optional would count from 0, which is false.
 void add_yes_or_no(CLI::App& command, const std::string& names, std::optional<bool>& choice,
                    const std::string& words) {
-  command.add_flag_function(
-      names, [&choice](std::int64_t count) { choice = count > 0; }, words);
+  // Releases of CLI11 from 2.4 on take any text for false here.
+  const auto check = [](const std::string& text) {
+    constexpr std::array<std::string_view, 4> kWords = {"true", "false", "1", "0"};
+    const bool known = std::find(kWords.begin(), kWords.end(), text) != kWords.end();
+    return known ? "" : expected(text, "a flag without a value, or one of true and false");
+  };
+  command
+      .add_flag_function(
+          names, [&choice](std::int64_t count) { choice = count > 0; }, words)
+      ->check(check);
 }
 
 }  // namespace

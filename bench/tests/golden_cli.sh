@@ -198,8 +198,8 @@ refused 'benchmark_out' bench --suite smoke --benchmark_out=nowhere/x.json --db 
 expect 0 generate --map warehouse --agents 3 --seed 899472 --speed 1000 --obstacles 3 -o quick
 "$sipplab" plan --instance quick/0.xml >out 2>err
 [ $? -le 1 ] || complain "what generate writes is not read: $(cat err)"
-refused 'none of true and false' plan --instance warehouse/0.xml --any-angle=foo
-refused 'none of true and false' plan --instance warehouse/0.xml --turns=x
+refused 'one of true and false' plan --instance warehouse/0.xml --any-angle=foo
+refused 'one of true and false' plan --instance warehouse/0.xml --turns=x
 refused 'rounding' bench --map empty:9x9 --robots 1 --planner 'cmd:true {task}' --rounding 1 --db history.db
 refused 'planner.*no such file' bench --map empty:9x9 --robots 1 --planner 'cmd:./nowhere {task}' --db history.db
 
