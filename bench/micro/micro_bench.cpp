@@ -192,7 +192,7 @@ void static_detour(benchmark::State& state) {
   for ([[maybe_unused]] auto iteration : state) {
     StaticDistances distances(map, lines, steps, kOctile);
     const MovePair& ends = moves[next++ % kInputs];
-    distances.set_goal(ends.to, ends.from);
+    distances.set_goal(ends.to);
     benchmark::DoNotOptimize(distances.detour_cells(ends.from));
   }
 }

@@ -93,11 +93,13 @@ void SweptRuns::append(Cell displacement, std::vector<CellRun>& runs) const {
 }
 
 LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
-    : width_(map.width()),
+    : is_open_(map.blocked_count() == 0),
+      width_(map.width()),
       height_(map.height()),
       radius_(radius_cells),
       reach_(static_cast<std::int32_t>(std::ceil(radius_cells - 0.5 - kTouchDepthCells))),
-      runs_(radius_cells, reach_, std::max(map.width(), map.height())) {
+      runs_(radius_cells, reach_, std::max(map.width(), map.height())),
+      known_(is_open_ ? 0 : std::size_t{1} << kKnownBits, UINT64_MAX) {
   const auto stride = static_cast<std::size_t>(width_) + 1;
   summed_.assign(stride * (static_cast<std::size_t>(height_) + 1), 0);
   in_row_.assign(stride * static_cast<std::size_t>(height_), 0);
@@ -129,7 +131,7 @@ bool LineOfSight::is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32
   return row[x1 + 1] != row[x0];
 }
 
-bool LineOfSight::is_clear(Cell from, Cell to) const {
+bool LineOfSight::is_clear_anew(Cell from, Cell to) const {
   if (is_open_between(from, to)) return true;
   const auto [left, right] = std::minmax({from.x, to.x});
   const auto [top, bottom] = std::minmax({from.y, to.y});

@@ -74,12 +74,19 @@ class LineOfSight {
   ///
   /// REQUIRES: is_legal(from) and is_legal(to). O(rows between the two); O(1) where the
   /// rectangle around the move holds no blocked cell.
-  bool is_clear(Cell from, Cell to) const;
+  bool is_clear(Cell from, Cell to) const {
+    if (is_open_) return true;
+    const std::uint64_t ends = static_cast<std::uint64_t>(index(from)) << 32 | index(to);
+    std::uint64_t& known = known_[(ends * kHashFactor) >> (64 - kKnownBits)];
+    if (known >> 1 != ends) known = ends << 1 | (is_clear_anew(from, to) ? 1U : 0U);
+    return (known & 1) != 0;
+  }
 
   /// Whether the disk can move anywhere in the rectangle between the two cells: more than is_clear()
   /// says. REQUIRES: is_legal(from) and is_legal(to). O(1).
   bool is_open_between(Cell from, Cell to) const {
     PLANNER_ASSERT(is_legal(from) && is_legal(to));
+    if (is_open_) return true;
     // Both ends lie inside the grid and so does all between them: the rectangle is convex.
     return !is_blocked_in(std::min(from.x, to.x) - reach_, std::max(from.x, to.x) + reach_,
                           std::min(from.y, to.y) - reach_, std::max(from.y, to.y) + reach_);
@@ -103,8 +110,14 @@ class LineOfSight {
     const std::int32_t* below = &summed_[(static_cast<std::size_t>(y1) + 1) * stride];
     return below[x1 + 1] - below[x0] - above[x1 + 1] + above[x0] != 0;
   }
+  bool is_clear_anew(Cell from, Cell to) const;
   bool is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const;
 
+  /// Answers that are kept: searches ask again and again about the same few hundred pairs of cells.
+  static constexpr int kKnownBits = 11;
+  static constexpr std::uint64_t kHashFactor = 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio
+
+  bool is_open_;  ///< nothing stands on the map
   std::int32_t width_;
   std::int32_t height_;
   double radius_;
@@ -113,6 +126,8 @@ class LineOfSight {
   std::vector<std::int32_t> in_row_;  ///< blocked cells to the left: (width + 1) x height
   std::vector<std::uint8_t> legal_;
   mutable SweptRuns runs_;
+  mutable std::vector<std::uint64_t>
+      known_;  ///< pairs of cells, by hash, and in the lowest bit what is_clear() says
 };
 
 }  // namespace sipplab

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
-#include <numbers>
+#include <cmath>
 #include <utility>
 
 #include "planner/geometry/interval.hpp"
@@ -15,79 +14,102 @@ namespace {
 /// Two lengths of ways that differ by less, in cells, differ by the rounding of their sums.
 constexpr double kRoundingCells = 1e-9;
 
-/// At most the length of the straight line between the two, in cells, and quick: of all norms with an
-/// octagon for a circle the greatest of those.
-double length_bound(Cell a, Cell b) {
-  const std::int32_t x = std::abs(a.x - b.x);
-  const std::int32_t y = std::abs(a.y - b.y);
-  return std::max(static_cast<double>(std::max(x, y)), static_cast<double>(x + y) / std::numbers::sqrt2);
-}
+/// The largest disk that can go wherever the cells under it are free: steps among eight neighbours are clear
+/// if and only if all cells that they touch are.
+constexpr double kCellRadius = 0.5;
+
+constexpr int kOctile = 3;
 
 }  // namespace
 
 StaticDistances::StaticDistances(const GridMap& map, const LineOfSight& line_of_sight, StepTable& steps,
                                  int k)
-    : map_(map), is_open_(map.blocked_count() == 0), line_of_sight_(line_of_sight), table_(steps), k_(k) {
+    : map_(map),
+      is_open_(map.blocked_count() == 0),
+      line_of_sight_(line_of_sight),
+      table_(steps),
+      k_(k),
+      is_canonical_(k == kOctile && line_of_sight.radius_cells() <= kCellRadius) {
   for (const Cell step : neighbourhood(k)) {
-    steps_.push_back({step, step.y * std::ptrdiff_t{map.width()} + step.x, norm(centre(step))});
+    steps_.push_back({step, step.y * std::ptrdiff_t{map.width()} + step.x,
+                      static_cast<Length>(std::ldexp(norm(centre(step)), kCellBits))});
   }
 }
 
-void StaticDistances::set_goal(Cell goal, Cell towards) {
+void StaticDistances::set_goal(Cell goal) {
   goal_ = goal;
-  towards_ = towards;
   spread_ = nullptr;
 }
 
 StaticDistances::Spread& StaticDistances::spread_of_goal() {
   const std::size_t index = map_.index(goal_);
   if (const auto known = spreads_.find(index); known != spreads_.end()) return known->second;
-  const bool is_full = (spreads_.size() + 1) * map_.cell_count() * sizeof(double) > kMostKeptBytes;
+  constexpr std::size_t kBytes = sizeof(Length) + sizeof(std::uint32_t);
+  const bool is_full = (spreads_.size() + 1) * map_.cell_count() * kBytes > kMostKeptBytes;
   // The new one takes the memory of one that is forgotten.
   auto reused = is_full && !spreads_.empty() ? spreads_.extract(spreads_.begin()) : Spreads::node_type{};
   if (reused) reused.key() = index;
-  Spread& spread = reused ? spreads_.insert(std::move(reused)).position->second : spreads_[index];
-  spread.towards = towards_;
-  spread.least_f = length_bound(goal_, towards_);
-  spread.cells.assign(map_.cell_count(), kForever);
-  spread.cells[index] = 0;
+  Spread& spread = reused ? spreads_.insert(std::move(reused)).position->second
+                          : spreads_.try_emplace(index, arena_).first->second;
+  spread.lengths.assign(map_.cell_count(), kFar);
+  spread.steps.assign(map_.cell_count(), 0);
+  spread.lengths[index] = 0;
+  spread.steps[index] = UINT32_MAX;
   spread.level = 0;
-  for (std::vector<Open>& bucket : spread.buckets) bucket.clear();
-  spread.buckets[0].push_back({0, goal_});
+  for (ArenaVector<Cell>& bucket : spread.buckets) bucket.clear();
+  spread.buckets[0].push_back(goal_);
   spread.open = 1;
   return spread;
 }
 
 double StaticDistances::searched_detour_cells(Cell cell) {
   if (spread_ == nullptr) spread_ = &spread_of_goal();
-  Spread& spread = *spread_;
-  const std::size_t index = map_.index(cell);
-  const double ahead = length_bound(cell, spread.towards) - spread.least_f;
-  while (spread.cells[index] + ahead >= static_cast<double>(spread.level) && spread.open > 0) grow(spread);
-  const double detour = spread.cells[index] - neighbourhood_distance(cell, goal_, k_);
+  const Length& length = spread_->lengths[map_.index(cell)];
+  while (length >> kCellBits >= spread_->level && spread_->open > 0) grow(*spread_);
+  if (length == kFar) return kForever;
+  const double detour =
+      std::ldexp(static_cast<double>(length), -kCellBits) - neighbourhood_distance(cell, goal_, k_);
   return detour > kRoundingCells ? detour : 0;
 }
 
+std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {
+  if (!is_canonical_) return UINT32_MAX;
+  constexpr std::size_t kStraight = 4;  // the others of the eight lie each between two of these
+  const auto bit = [](std::size_t i) { return std::uint32_t{1} << i; };
+  if (step >= kStraight) return bit(step) | bit(step - kStraight) | bit((step + 1) % kStraight);
+  // Straight on; and aside, where the way around by a diagonal or by going aside first was blocked.
+  const std::size_t left = (step + 3) % kStraight;
+  const std::size_t right = (step + 1) % kStraight;
+  std::uint32_t steps = bit(step);
+  if ((clear_before & bit(left)) == 0) steps |= bit(left) | bit(kStraight + left);
+  if ((clear_before & bit(right)) == 0) steps |= bit(right) | bit(kStraight + step);
+  return steps;
+}
+
 void StaticDistances::grow(Spread& spread) const {
-  std::vector<Open>& bucket = spread.buckets[spread.level % kBuckets];
-  // Cells are queued behind those that lead to them, in the same bucket as well; one whose way gets
-  // shorter afterwards is queued again.
-  for (std::size_t i = 0; i < bucket.size(); ++i) {
-    const auto [cells, cell] = bucket[i];
+  ArenaVector<Cell>& bucket = spread.buckets[spread.level % kBuckets];
+  for (const Cell cell : bucket) {
     const std::size_t index = map_.index(cell);
-    if (cells > spread.cells[index]) continue;
-    for (std::uint32_t clear = table_.clear_steps(cell, index); clear != 0; clear &= clear - 1) {
-      const Step& step = steps_[static_cast<std::size_t>(std::countr_zero(clear))];
-      double& known =
-          spread.cells[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + step.index_offset)];
-      const double there = cells + step.cells;
-      if (there >= known) continue;
+    const Length length = spread.lengths[index];
+    if (length >> kCellBits != spread.level) continue;  // found to be nearer, and done
+    const std::uint32_t clear = table_.clear_steps(cell, index);
+    for (std::uint32_t left = clear & std::exchange(spread.steps[index], 0); left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const Step& step = steps_[i];
+      const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + step.index_offset);
+      const Length there = length + step.length;
+      Length& known = spread.lengths[next];
+      if (there > known) continue;
+      std::uint32_t& steps = spread.steps[next];
+      if (there == known) {
+        steps |= followers(i, clear);
+        continue;
+      }
+      const bool is_queued = known >> kCellBits == there >> kCellBits;
       known = there;
-      const Cell next{cell.x + step.cell.x, cell.y + step.cell.y};
-      // By a rounding f may fall along a way.
-      const double f = there + length_bound(next, spread.towards) - spread.least_f;
-      const std::size_t level = std::max(static_cast<std::size_t>(std::max(f, 0.0)), spread.level);
-      spread.buckets[level % kBuckets].push_back({there, next});
+      steps = followers(i, clear);
+      if (is_queued) continue;
+      spread.buckets[(there >> kCellBits) % kBuckets].push_back({cell.x + step.cell.x, cell.y + step.cell.y});
       ++spread.open;
     }
   }

@@ -6,13 +6,16 @@
 #include <unordered_map>
 #include <vector>
 
+#include "planner/core/arena.hpp"
 #include "planner/grid/step_table.hpp"
 
 namespace sipplab {
 
 /// Lengths of the shortest ways over the steps of a neighbourhood, nobody else being on the map. From
-/// each goal A* spreads out backwards, as far as somebody asks and no farther (reverse resumable A*;
-/// Silver, AIIDE 2005), over buckets of OPEN one cell wide (Dial 1969).
+/// each goal Dijkstra's search spreads out backwards, as far as somebody asks and no farther, over buckets of
+/// OPEN one cell wide (Dial 1969). Lengths are whole numbers of a tiny unit, so that ways of equal length are
+/// known as such: of those over eight neighbours only the one is followed that goes diagonally as soon as it
+/// can (Harabor and Grastien, AAAI 2011).
 class StaticDistances {
  public:
   /// What is known of a goal is kept for the next try of prioritized planning, up to this much in all;
@@ -22,9 +25,8 @@ class StaticDistances {
   /// `steps` are those of neighbourhood(k). All three must outlive this.
   StaticDistances(const GridMap& map, const LineOfSight& line_of_sight, StepTable& steps, int k);
 
-  /// The goal of the questions that follow. Those about cells between it and `towards` are the quickest.
-  /// REQUIRES: both are legal.
-  void set_goal(Cell goal, Cell towards);
+  /// The goal of the questions that follow. REQUIRES: it is legal.
+  void set_goal(Cell goal);
 
   /// Cells by which the shortest way from `cell` to the goal is longer than on an empty map: 0 or more;
   /// kForever where there is none. O(1) where all between the two is free; else O(cells * steps) over
@@ -34,27 +36,32 @@ class StaticDistances {
   }
 
  private:
+  /// Of a way, in 2^-32 cells; a step is rounded down.
+  using Length = std::uint64_t;
+  static constexpr int kCellBits = 32;
+  static constexpr Length kFar = UINT64_MAX;
+
   struct Step {
     Cell cell;
     std::ptrdiff_t index_offset;
-    double cells;
+    Length length;
   };
-  /// A cell in OPEN, so far from the goal.
-  struct Open {
-    double cells;
-    Cell cell;
-  };
-  /// Along the longest step, of sqrt(13) cells, f grows by twice its length at most: no two entries are
-  /// more buckets apart.
-  static constexpr std::size_t kBuckets = 8 + 1;
+  /// The longest step, of sqrt(13) cells, leads four buckets on at most; and none stays in its bucket, so
+  /// that all in it is final when it is opened.
+  static constexpr std::size_t kBuckets = 5;
   /// What is known of the ways to one goal.
   struct Spread {
-    Cell towards;
-    double least_f = 0;                               ///< that of the goal
-    std::vector<double> cells;                        ///< by cell; final where f is below the level
-    std::size_t level = 0;                            ///< whole cells by which f exceeds the least
-    std::array<std::vector<Open>, kBuckets> buckets;  ///< by level, in a ring
+    ArenaVector<Length> lengths;                      ///< by cell; final where they are below the level
+    ArenaVector<std::uint32_t> steps;                 ///< by cell: those that are to be followed from it
+    std::array<ArenaVector<Cell>, kBuckets> buckets;  ///< by level, in a ring
+    std::size_t level = 0;                            ///< whole cells
     std::size_t open = 0;                             ///< entries in all buckets
+
+    explicit Spread(Arena& arena)
+        : lengths(arena),
+          steps(arena),
+          buckets{ArenaVector<Cell>(arena), ArenaVector<Cell>(arena), ArenaVector<Cell>(arena),
+                  ArenaVector<Cell>(arena), ArenaVector<Cell>(arena)} {}
   };
 
   using Spreads = std::unordered_map<std::size_t, Spread>;  ///< by index of the goal
@@ -64,16 +71,19 @@ class StaticDistances {
   Spread& spread_of_goal();
   /// Empties the bucket of the level, and goes on to the next.
   void grow(Spread& spread) const;
+  /// The steps to be followed from a cell that was reached by this one, from a cell with these clear steps.
+  std::uint32_t followers(std::size_t step, std::uint32_t clear_before) const;
 
   const GridMap& map_;
   bool is_open_;  ///< nothing stands on the map
   const LineOfSight& line_of_sight_;
   StepTable& table_;
   int k_;
+  bool is_canonical_;        ///< of ways of equal length one is followed
   std::vector<Step> steps_;  ///< of the neighbourhood
+  Arena arena_;
   Spreads spreads_;
   Cell goal_;
-  Cell towards_;
   Spread* spread_ = nullptr;  ///< of goal_; none before it is asked for
 };
 

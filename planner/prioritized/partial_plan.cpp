@@ -12,7 +12,7 @@ namespace sipplab {
 PartialPlan::PartialPlan(const Instance& instance, double ssi_s, SingleAgentPlanner& planner)
     : instance_(instance),
       planner_(planner),
-      reservations_(instance.map, largest_radius_cells(instance)),
+      reservations_(instance.map, askers_of(instance)),
       starts_(instance, ssi_s, reservations_),
       precedence_(instance, ssi_s),
       trajectories_(instance.agents.size()),

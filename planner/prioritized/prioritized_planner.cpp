@@ -69,9 +69,7 @@ PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& opti
   PriorityOrder first = initial_order(options.order, lengths_s, random);
   OrderSequence orders(options.rescheduling, std::move(first), random);
 
-  const MotionRules& rules = options.rules;
-  ReservationTable reservations(instance.map, largest_radius_cells(instance) + rules.inflate_distance_cells,
-                                rules.inflate_time_s);
+  ReservationTable reservations(instance.map, askers_of(instance, options.rules));
   PlanResult result;
   result.ssi_s = result.ssi_kept_s = options.ssi_s;
   while (true) {

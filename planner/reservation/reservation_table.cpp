@@ -1,9 +1,11 @@
 // Reservations of [YA17], section 4, with exact collision intervals. Differs from
-// [YA17]: a query looks at the cells under the mover's centre line only, each disk being
-// entered in every cell from which it can be touched.
+// [YA17]: a query looks once for each slice of time, at the place where the mover is then,
+// each disk being entered wherever it can be touched from.
 #include "planner/reservation/reservation_table.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -16,12 +18,6 @@ namespace {
 /// End of a disk that was removed: before every beginning.
 constexpr double kRemoved = -kForever;
 
-/// Room that a timeline begins with: most have this many entries at the end or more.
-constexpr std::size_t kFirstPresences = 8;
-
-/// Bytes for each cell that are set aside at first.
-constexpr std::size_t kBytesPerCell = 256;
-
 /// End of a presence that does not end.
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
@@ -32,158 +28,133 @@ float at_most(double x) {
 }
 float at_least(double x) { return -at_most(-x); }
 
-/// Half the side of a cell.
-constexpr double kHalfCell = 0.5;
+/// Cells. How far the mover's centre is at most from where it is in the middle of a look-up.
+constexpr double kHalfStepCells = 0.5;
 
-/// Distances along a way, in cells.
-struct Span {
-  double begin;
-  double end;
-};
+/// Cells, and cells for each cell of the map's longer side. What floats may lose of distances.
+constexpr double kFilterMargin = 1e-4;
+constexpr double kFilterMarginPerCell = 5e-7;
 
-/// Where along a way, position + step * s, the coordinate lies within `half` of
-/// `middle`; all of [0, length] where the coordinate does not change.
-Span slab(double position, double step, double middle, double half, double length) {
-  if (step == 0) return std::abs(position - middle) < half ? Span{0, length} : Span{length, 0};
-  const double near = (middle - position - half) / step;
-  const double far = (middle - position + half) / step;
-  return {std::max(0.0, std::min(near, far)), std::min(length, std::max(near, far))};
+/// Slots of one slice: 256 KiB of them, which is where maps of more than 256 x 256 cells begin to have larger
+/// blocks.
+constexpr std::size_t kMostBlocks = std::size_t{1} << 14;
+
+double filter_margin(const GridMap& map) {
+  return kFilterMargin + kFilterMarginPerCell * std::max(map.width(), map.height());
 }
 
 }  // namespace
 
-ReservationTable::ReservationTable(const GridMap& map, double max_radius_cells, double time_margin_s)
+ReservationTable::ReservationTable(const GridMap& map, const Askers& askers)
     : map_(map),
-      max_radius_(max_radius_cells),
-      time_margin_s_(time_margin_s),
-      memory_(kBytesPerCell * map.cell_count()),
-      visits_(static_cast<std::size_t>(map.width() + map.height())) {
-  timelines_.reserve(map.cell_count());
-  while (timelines_.size() < map.cell_count()) timelines_.emplace_back(&memory_);
+      askers_(askers),
+      blocks_(map, askers.max_radius_cells + kHalfStepCells + filter_margin(map), kMostBlocks),
+      filter_margin_(filter_margin(map)),
+      slices_(blocks_, 1 / askers.max_speed_cells_per_s, askers.time_margin_s, arena_),
+      stay_heads_(arena_),
+      stays_(arena_),
+      safe_times_(map, askers.max_radius_cells, askers.time_margin_s, arena_) {
+  clear();
 }
 
 void ReservationTable::clear() {
-  for (const std::size_t cell : used_cells_) {
-    Timeline& timeline = timelines_[cell];
-    timeline.passing.clear();
-    timeline.resting.clear();
-    timeline.safe_radius = -1;
-    timeline.used = false;
-  }
-  used_cells_.clear();
+  arena_.reset();
+  slices_.abandon();
+  stays_.abandon();
+  stay_heads_.abandon();
+  stay_heads_.assign(blocks_.count(), 0);
+  stays_.push_back({});
+  free_stay_ = 0;
+  safe_times_.clear();
   disks_.clear();
+  is_short_.clear();
   free_ids_.clear();
-  answered_.clear();
   keepouts_.clear();
 }
 
-template <class Visitor>
-void ReservationTable::for_each_cell_near(const MovingDisk& disk, Visitor&& visit) const {
-  const double half = kHalfCell + disk.radius + max_radius_;
-  const Vec2 from = disk.from;
-  const Vec2 step = disk.way.direction;
-  const double length = disk.way.length;
-  const auto first_within = [](double low) { return static_cast<std::int32_t>(std::floor(low)) + 1; };
-  const auto last_within = [](double high) { return static_cast<std::int32_t>(std::ceil(high)) - 1; };
-
-  const auto [top, bottom] = std::minmax({from.y, disk.way.to.y});
-  const std::int32_t first_row = std::max(first_within(top - half), 0);
-  const std::int32_t last_row = std::min(last_within(bottom + half), map_.height() - 1);
-  for (std::int32_t y = first_row; y <= last_row; ++y) {
-    const Span row = slab(from.y, step.y, y, half, length);
-    if (row.begin > row.end) continue;
-    const auto [left, right] = std::minmax({from.x + step.x * row.begin, from.x + step.x * row.end});
-    const std::int32_t first_column = std::max(first_within(left - half), 0);
-    const std::int32_t last_column = std::min(last_within(right + half), map_.width() - 1);
-    for (std::int32_t x = first_column; x <= last_column; ++x) {
-      const Cell cell{x, y};
-      if (map_.is_blocked(cell)) continue;  // no robot's centre comes here
-      const Span column = slab(from.x, step.x, x, half, length);
-      const Span near{std::max(row.begin, column.begin), std::min(row.end, column.end)};
-      if (near.begin <= near.end) visit(map_.index(cell), near);
+void ReservationTable::add_stay(DiskId id) {
+  const MovingDisk& disk = disks_[id];
+  // A slow motion lies within a circle about its middle.
+  const Vec2 middle = (disk.from + disk.way.to) * 0.5;
+  const double radius = disk.radius + disk.way.length / 2 + disk.speed * askers_.time_margin_s;
+  blocks_.for_each_near(disk.from, disk.way.to, disk.radius, [&](std::size_t block) {
+    std::uint32_t place = stay_heads_[block];
+    if (place == 0 || stays_[place].disk.back() != StayFour::kNobody) {
+      place = free_stay_;
+      if (place == 0) {
+        place = static_cast<std::uint32_t>(stays_.size());
+        stays_.push_back({});
+      }
+      StayFour& four = stays_[place];
+      free_stay_ = four.next;
+      four.disk.fill(StayFour::kNobody);
+      four.end_s.fill(-kNever);
+      four.next = stay_heads_[block];
+      stay_heads_[block] = place;
     }
-  }
+    StayFour& four = stays_[place];
+    std::size_t lane = 0;
+    while (four.disk[lane] != StayFour::kNobody) ++lane;
+    four.x[lane] = static_cast<float>(middle.x);
+    four.y[lane] = static_cast<float>(middle.y);
+    four.radius[lane] = static_cast<float>(radius);
+    const double margin_s = askers_.time_margin_s + 2 * slices_.margin_s();
+    four.begin_s[lane] = at_most(disk.begin_s - margin_s);
+    four.end_s[lane] = disk.end_s == kForever ? kNever : at_least(disk.end_s + margin_s);
+    four.disk[lane] = id;
+  });
 }
 
-const ReservationTable::Presence* ReservationTable::Timeline::first_after(float time_s) const {
-  const Presence* first = passing.data();
-  // Halving without branches: which half is as good as random.
-  for (std::size_t left = passing.size(); left > 0;) {
-    const std::size_t half = left / 2;
-    const bool over = first[half].latest_exit_s <= time_s;
-    first = over ? first + half + 1 : first;
-    left = over ? left - half - 1 : half;
-  }
-  return first;
-}
-
-void ReservationTable::Timeline::insert(const Presence& presence) {
-  if (passing.capacity() == 0) passing.reserve(kFirstPresences);
-  auto place = std::upper_bound(passing.begin(), passing.end(), presence.enter_s,
-                                [](float enter_s, const Presence& other) { return enter_s < other.enter_s; });
-  place = passing.insert(place, presence);
-  if (place != passing.begin()) {
-    place->latest_exit_s = std::max(presence.exit_s, std::prev(place)->latest_exit_s);
-  }
-  while (++place != passing.end() && place->latest_exit_s < presence.exit_s) {
-    place->latest_exit_s = presence.exit_s;
-  }
-}
-
-void ReservationTable::Timeline::repair_from(std::pmr::vector<Presence>::iterator place) {
-  float latest_exit_s = place == passing.begin() ? -kNever : std::prev(place)->latest_exit_s;
-  for (; place != passing.end(); ++place) {
-    latest_exit_s = std::max(latest_exit_s, place->exit_s);
-    if (place->latest_exit_s == latest_exit_s) return;  // and all those behind it, too
-    place->latest_exit_s = latest_exit_s;
-  }
+void ReservationTable::remove_stay(DiskId id) {
+  const MovingDisk& disk = disks_[id];
+  blocks_.for_each_near(disk.from, disk.way.to, disk.radius, [&](std::size_t block) {
+    std::uint32_t* link = &stay_heads_[block];
+    while (std::find(stays_[*link].disk.begin(), stays_[*link].disk.end(), id) == stays_[*link].disk.end()) {
+      link = &stays_[*link].next;
+    }
+    // The last of the first four takes its place, so that only these have room.
+    StayFour& four = stays_[*link];
+    const auto lane =
+        static_cast<std::size_t>(std::find(four.disk.begin(), four.disk.end(), id) - four.disk.begin());
+    StayFour& head = stays_[stay_heads_[block]];
+    std::size_t last = 3;
+    while (head.disk[last] == StayFour::kNobody) --last;
+    for (std::array<float, 4> StayFour::*values :
+         {&StayFour::x, &StayFour::y, &StayFour::radius, &StayFour::begin_s, &StayFour::end_s}) {
+      (four.*values)[lane] = (head.*values)[last];
+    }
+    four.disk[lane] = head.disk[last];
+    head.disk[last] = StayFour::kNobody;
+    head.end_s[last] = -kNever;
+    if (last > 0) return;
+    std::swap(stay_heads_[block], head.next);
+    std::swap(free_stay_, head.next);
+  });
 }
 
 ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
   auto id = static_cast<DiskId>(disks_.size());
   if (free_ids_.empty()) {
     disks_.push_back(disk);
-    answered_.push_back(0);
+    is_short_.push_back(0);
   } else {
     id = free_ids_.back();
     free_ids_.pop_back();
     disks_[id] = disk;
   }
-  for_each_cell_near(disk, [&](std::size_t cell, Span near) {
-    Timeline& timeline = timelines_[cell];
-    if (!std::exchange(timeline.used, true)) used_cells_.push_back(cell);
-    if (timeline.safe_radius >= 0) {
-      timeline.safe.remove_open(
-          widened(collision_interval(centre(map_.cell(cell)), disk, timeline.safe_radius + disk.radius)));
-    }
-    if (disk.end_s == kForever) {
-      timeline.resting.push_back({at_most(disk.begin_s), kNever, kNever, id});
-      return;
-    }
-    double enter_s = disk.begin_s;
-    double exit_s = disk.end_s;
-    if (!disk.at_rest()) {
-      enter_s = disk.begin_s + near.begin / disk.speed;
-      if (near.end < disk.way.length) exit_s = disk.begin_s + near.end / disk.speed;
-    }
-    const float latest_exit_s = at_least(exit_s);
-    timeline.insert({at_most(enter_s), latest_exit_s, latest_exit_s, id});
-  });
+  is_short_[id] = slices_.put(disk, id) ? 1 : 0;
+  if (is_short_[id] == 0) add_stay(id);
+  safe_times_.add(disk, id);
   return id;
 }
 
 void ReservationTable::remove(DiskId id) {
-  const MovingDisk& disk = disks_[id];
-  for_each_cell_near(disk, [&](std::size_t cell, Span) {
-    Timeline& timeline = timelines_[cell];
-    timeline.safe_radius = -1;
-    std::pmr::vector<Presence>& presences = disk.end_s == kForever ? timeline.resting : timeline.passing;
-    const auto place = std::find_if(presences.begin(), presences.end(),
-                                    [id](const Presence& presence) { return presence.disk == id; });
-    PLANNER_ASSERT(place != presences.end());
-    const auto behind = presences.erase(place);
-    if (disk.end_s < kForever) timeline.repair_from(behind);
-  });
+  if (is_short_[id] != 0) {
+    slices_.remove(disks_[id], id);
+  } else {
+    remove_stay(id);
+  }
+  safe_times_.remove(disks_[id], id);
   disks_[id].end_s = kRemoved;
   free_ids_.push_back(id);
 }
@@ -211,102 +182,117 @@ bool ReservationTable::is_kept_out(const Displacement& way, double radius_cells)
   });
 }
 
-std::span<const SafeInterval> ReservationTable::safe_intervals(Cell cell, double radius_cells) {
-  if (!keepouts_.empty() && is_kept_out(Displacement(centre(cell), centre(cell)), radius_cells)) return {};
-  Timeline& timeline = timelines_[map_.index(cell)];
-  if (timeline.safe_radius != radius_cells) {
-    timeline.safe.reset();
-    timeline.safe_radius = radius_cells;
-    for (const std::pmr::vector<Presence>* presences : {&timeline.passing, &timeline.resting}) {
-      for (const Presence& presence : *presences) {
-        const MovingDisk& disk = disks_[presence.disk];
-        timeline.safe.remove_open(
-            widened(collision_interval(centre(cell), disk, radius_cells + disk.radius)));
-      }
-    }
-  }
-  return timeline.safe.intervals();
-}
-
 double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                                         double departure_s) const {
-  const OpenInterval unsafe = widened(unsafe_departures(move, disk, radius_cells + disk.radius));
+  OpenInterval unsafe = unsafe_departures(move, disk, radius_cells + disk.radius);
+  if (unsafe.empty()) return departure_s;
+  unsafe = {unsafe.begin_s - askers_.time_margin_s, unsafe.end_s + askers_.time_margin_s};
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
-double ReservationTable::next_departure(const Move& move, const CellVisit& visit, double radius_cells,
-                                        double departure_s, DiskId& blocker) {
-  const Timeline& timeline = timelines_[visit.cell];
-  // Unsafe departures may reach a little beyond the time that is spent near a disk.
-  const double margin_s = kNearMissCells * move.seconds_per_cell + time_margin_s_;
-  const float enter_s = at_most(departure_s + visit.enter_s - margin_s);
-  const float leave_s = at_least(departure_s + visit.leave_s + margin_s);
-  const Presence* const end = timeline.passing.data() + timeline.passing.size();
-  for (const Presence* presence = timeline.first_after(enter_s); presence != end; ++presence) {
-    if (presence->enter_s >= leave_s) break;
-    if (presence->exit_s <= enter_s || !is_news(presence->disk)) continue;
-    const MovingDisk& disk = disks_[presence->disk];
-    if (time_margin_s_ == 0 && !may_be_unsafe(move, departure_s, disk, radius_cells + disk.radius)) continue;
-    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
-    if (later_s > departure_s) {
-      blocker = presence->disk;
-      return later_s;
-    }
+/// A move that is asked about, and what the answer needs to remember.
+struct ReservationTable::Question {
+  const Move& move;
+  double radius;
+  int splits;  ///< of a slice by two, until the mover gets no farther than a cell in each part
+  NearFilter filter;
+  double departure_s;
+  double later_s;             ///< the next departure to ask about
+  DiskId blocker;             ///< met last
+  double resume_s = 0;        ///< after departure: where that was
+  std::uint32_t cleared = 0;  ///< disks that were found to be out of the way at this departure
+  std::array<DiskId, 4> clear_disks{kNoDisk, kNoDisk, kNoDisk, kNoDisk};
+
+  bool is_news(DiskId disk) const {
+    return disk != clear_disks[0] && disk != clear_disks[1] && disk != clear_disks[2] &&
+           disk != clear_disks[3];
   }
-  for (const Presence& rest : timeline.resting) {
-    if (rest.enter_s >= leave_s || !is_news(rest.disk)) continue;
-    const MovingDisk& disk = disks_[rest.disk];
-    if (passes_by(move.way, disk.from, radius_cells + disk.radius)) continue;
-    const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
-    if (later_s > departure_s) {
-      blocker = rest.disk;
-      return later_s;
-    }
+};
+
+/// Whether departing then is unsafe for the disk; the question knows when it is not any more.
+inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) const {
+  if (!question.is_news(id)) return false;
+  const MovingDisk& disk = disks_[id];
+  if (askers_.time_margin_s == 0 &&
+      !may_be_unsafe(question.move, question.departure_s, disk, question.radius + disk.radius)) {
+    return false;
   }
-  return departure_s;
+  question.later_s = end_of_overlap(question.move, disk, question.radius, question.departure_s);
+  if (question.later_s > question.departure_s) {
+    question.blocker = id;
+    return true;
+  }
+  question.clear_disks[question.cleared++ % question.clear_disks.size()] = id;
+  return false;
+}
+
+/// Whether a disk that is met in [from_s, to_s] of absolute time stands in the way.
+bool ReservationTable::is_stopped(Question& question, double from_s, double to_s) const {
+  const auto test = [&](DiskId id) { return stands_in_the_way(question, id); };
+  const Vec2 velocity = question.move.velocity;
+  const Vec2 origin =
+      question.move.way.from + velocity * -question.departure_s;  // at time 0, were it on its way
+  const double slice_s = slices_.slice_s();
+  const double slices_per_s = slices_.per_second();
+  const double windows_per_s = slices_per_s * static_cast<double>(std::int64_t{1} << question.splits);
+  const double window_s = 1 / windows_per_s;
+  for (auto window = static_cast<std::int64_t>(from_s * windows_per_s);; ++window) {
+    const double next_s = static_cast<double>(window + 1) * window_s;
+    const double until_s = std::min(next_s, to_s);
+    const Vec2 middle = origin + velocity * ((from_s + until_s) / 2);
+    const std::size_t block = blocks_.at(middle.x, middle.y);
+    const std::int64_t slice = window >> question.splits;
+    const double begin_s = static_cast<double>(slice) * slice_s;
+    question.filter.set(origin + velocity * begin_s, (from_s - begin_s) * slices_per_s,
+                        (until_s - begin_s) * slices_per_s);
+    bool stopped = slices_.any_near(static_cast<std::size_t>(slice), block, question.filter, test);
+    for (std::uint32_t place = stay_heads_[block]; place != 0 && !stopped; place = stays_[place].next) {
+      const StayFour& four = stays_[place];
+      unsigned near = question.filter.near(four, from_s, until_s);
+      for (; near != 0 && !stopped; near &= near - 1) {
+        stopped = test(four.disk[static_cast<std::size_t>(std::countr_zero(near))]);
+      }
+    }
+    if (stopped) question.resume_s = from_s - question.departure_s;
+    if (stopped || !(next_s < to_s)) return stopped;
+    from_s = next_s;
+  }
 }
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
-                                            double until_s, DiskId* likely_blocker) {
-  if (!keepouts_.empty() && is_kept_out(move.way, radius_cells)) return kForever;
-  double departure_s = from_s;
-  DiskId blocker = likely_blocker ? *likely_blocker : kNoDisk;
-  if (blocker != kNoDisk) {
-    departure_s = end_of_overlap(move, disks_[blocker], radius_cells, departure_s);
-    if (departure_s > until_s || departure_s == kForever) return departure_s;
-  }
-  // Every visit must be seen clear at the same departure: go round until all were, in a
-  // row. Each jump ends where an unsafe interval ends, so no safe departure is missed.
-  CellWalk walk(map_, move);
-  std::size_t known = 0;  // visits_ that were made for this way
-  std::size_t at = 0;
-  std::size_t clear_in_a_row = 0;
-  ++question_;
-  while (!walk.done() || clear_in_a_row < known) {
-    if (at == known) {
-      if (walk.done()) {
-        at = 0;
-      } else {
-        visits_[known++] = walk.next();
-      }
-    }
-    const bool deserted = timelines_[visits_[at].cell].is_empty();
-    const double later_s =
-        deserted ? departure_s : next_departure(move, visits_[at], radius_cells, departure_s, blocker);
-    if (later_s > departure_s) {
-      departure_s = later_s;
-      if (departure_s > until_s || departure_s == kForever) break;
-      clear_in_a_row = 0;
+                                            double until_s, DiskId* likely_blocker) const {
+  if (from_s == kForever || (!keepouts_.empty() && is_kept_out(move.way, radius_cells))) return kForever;
+  // Unsafe departures may reach so much beyond the time that is spent near a disk.
+  const double slack_s = kNearMissCells * move.seconds_per_cell;
+  const double margin_s = slack_s < slices_.margin_s() ? 0 : slack_s;  // entries are that much longer already
+  int splits = 0;
+  for (double cells = move.speed * slices_.slice_s(); cells > 1 + kFilterMargin; cells /= 2) ++splits;
+  Question question{move,
+                    radius_cells,
+                    splits,
+                    NearFilter(move.velocity * slices_.slice_s(), radius_cells + filter_margin_),
+                    from_s,
+                    from_s,
+                    likely_blocker ? *likely_blocker : kNoDisk};
+  if (question.blocker != kNoDisk) stands_in_the_way(question, question.blocker);
+  // Each jump ends where an unsafe interval ends, so no safe departure is missed.
+  bool stopped = question.later_s > from_s;
+  do {
+    if (stopped) {
+      question.departure_s = question.later_s;
+      if (question.departure_s > until_s || question.departure_s == kForever) break;
       // Another departure, another question, except for the disk that was just answered.
-      ++question_;
-      answered_[blocker] = question_;
-    } else {
-      ++clear_in_a_row;
-      ++at;
+      question.clear_disks.fill(question.blocker);
     }
-  }
-  if (likely_blocker) *likely_blocker = blocker;
-  return departure_s;
+    const double begin_s = std::max(question.departure_s - margin_s, 0.0);
+    const double end_s = question.departure_s + move.duration + margin_s;
+    // First from where the last one was met: what stands beyond it is news.
+    const double resume_s = std::min(std::max(begin_s, question.departure_s + question.resume_s), end_s);
+    stopped = is_stopped(question, resume_s, end_s) ||
+              (resume_s > begin_s && is_stopped(question, begin_s, resume_s));
+  } while (stopped);
+  if (likely_blocker) *likely_blocker = question.blocker;
+  return question.departure_s;
 }
 
 double ReservationTable::earliest_departure_plain(const Move& move, double radius_cells, double from_s,

@@ -40,7 +40,7 @@ class Body {
   }
 
   /// As of StaticDistances.
-  void set_goal(Cell goal, Cell start) { distances_.set_goal(goal, start); }
+  void set_goal(Cell goal) { distances_.set_goal(goal); }
 
   /// What the map's obstacles add to the robot's way from the cell to its goal, in cells. Straight distance
   /// plus detour is never more than the shortest way by steps. REQUIRES: options.detours.

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <utility>
 
+#include "planner/core/arena.hpp"
 #include "planner/search/sipp_node.hpp"
 
 namespace sipplab {
@@ -16,13 +17,15 @@ namespace sipplab {
 /// entries are popped is a heap: most entries of the later ones are never looked at again.
 class OpenList {
  public:
+  explicit OpenList(Arena& arena) : heap_(arena), later_(arena), heads_(arena) {}
+
   struct Entry {
     double f;
     double arrival_s;  ///< g when queued; for a promise a lower bound on it
     NodeId node;
-    NodeId from;    ///< for a promise the node next to it, kNoNode for a settled one
-    NodeId parent;  ///< for a promise the node from which it may be reached straight, or kNoNode
-    std::uint32_t sequence;
+    NodeId from;         ///< for a promise the node next to it, kNoNode for a settled one
+    NodeId parent;       ///< for a promise the node from which it may be reached straight, or kNoNode
+    std::uint32_t link;  ///< in a bucket the entry below it, on the heap when it came
 
     bool is_promise() const { return from != kNoNode; }
   };
@@ -33,28 +36,26 @@ class OpenList {
   /// depend on these two, the speed does. REQUIRES: bucket_width > 0.
   void begin(double least_f, double bucket_width) {
     heap_.clear();
-    for (std::size_t i = current_; i < later_.size(); ++i) later_[i].clear();
+    later_.clear();
+    heads_.clear();
     least_f_ = least_f;
     buckets_per_unit_ = 1 / bucket_width;
     current_ = 0;
     size_ = 0;
-    pushed_ = 0;
   }
 
   /// A node with its arrival. O(log size of a bucket).
-  void push(NodeId node, double f, double arrival_s) {
-    push({f, arrival_s, node, kNoNode, kNoNode, pushed_});
-  }
+  void push(NodeId node, double f, double arrival_s) { push({f, arrival_s, node, kNoNode, kNoNode, 0}); }
 
   /// A promise. O(log size of a bucket).
   void push_promise(NodeId node, double f, double arrival_s, NodeId from, NodeId parent) {
-    push({f, arrival_s, node, from, parent, pushed_});
+    push({f, arrival_s, node, from, parent, 0});
   }
 
   /// O(log size of a bucket). REQUIRES: !empty().
   Entry pop_min() {
     while (heap_.empty()) open_next_bucket();
-    const Entry least = heap_.front();
+    const Entry least = heap_[0];
     const Entry moved = heap_.back();
     heap_.pop_back();
     --size_;
@@ -66,35 +67,43 @@ class OpenList {
   /// Children of a heap node. Four lie in two cache lines and halve the depth of two.
   static constexpr std::size_t kArity = 4;
   /// What lies farther away than this many buckets shares the last one.
-  static constexpr std::size_t kLastBucket = 1023;
+  static constexpr std::size_t kLastBucket = 8191;
+
+  static constexpr std::uint32_t kNone = UINT32_MAX;
 
   static bool comes_before(const Entry& a, const Entry& b) {
     if (a.f != b.f) return a.f < b.f;
     if (a.arrival_s != b.arrival_s) return a.arrival_s > b.arrival_s;
-    return a.sequence < b.sequence;
+    return a.link < b.link;
   }
 
   std::size_t bucket_of(double f) const {
     const double bucket = (f - least_f_) * buckets_per_unit_;
     if (!(bucket < static_cast<double>(kLastBucket))) return kLastBucket;
-    return bucket > 0 ? static_cast<std::size_t>(bucket) : 0;
+    return bucket > 0 ? static_cast<std::size_t>(static_cast<std::int64_t>(bucket)) : 0;
   }
 
-  void push(const Entry& entry) {
-    ++pushed_;
+  void push(Entry entry) {
     ++size_;
+    const auto sequence = static_cast<std::uint32_t>(later_.size());
     const std::size_t bucket = bucket_of(entry.f);
     if (bucket <= current_) {
+      entry.link = sequence;
+      later_.push_back(entry);  // its place is its number
       sift_up(entry);
       return;
     }
-    if (bucket >= later_.size()) later_.resize(bucket + 1);
-    later_[bucket].push_back(entry);
+    if (bucket >= heads_.size()) heads_.resize(bucket + 1, kNone);
+    entry.link = std::exchange(heads_[bucket], sequence);
+    later_.push_back(entry);
   }
 
   void open_next_bucket() {
     ++current_;
-    heap_.swap(later_[current_]);
+    for (std::uint32_t next = std::exchange(heads_[current_], kNone); next != kNone;) {
+      heap_.push_back(later_[next]);
+      heap_.back().link = std::exchange(next, later_[next].link);
+    }
     if (heap_.size() < 2) return;
     for (std::size_t i = (heap_.size() - 2) / kArity + 1; i-- > 0;) sift_down(i, Entry{heap_[i]});
   }
@@ -128,13 +137,13 @@ class OpenList {
     heap_[hole] = entry;
   }
 
-  std::vector<Entry> heap_;                ///< the bucket at current_ and all before it
-  std::vector<std::vector<Entry>> later_;  ///< by bucket; those up to current_ are empty
+  ArenaVector<Entry> heap_;           ///< the bucket at current_ and all before it
+  ArenaVector<Entry> later_;          ///< all that were pushed
+  ArenaVector<std::uint32_t> heads_;  ///< by bucket: its newest entry in later_
   double least_f_ = 0;
   double buckets_per_unit_ = 1;
   std::size_t current_ = 0;
   std::size_t size_ = 0;
-  std::uint32_t pushed_ = 0;
 };
 
 }  // namespace sipplab

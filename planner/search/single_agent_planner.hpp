@@ -3,6 +3,7 @@
 // planner that can respect a ReservationTable.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "planner/core/expected.hpp"
 #include "planner/instance/instance.hpp"
+#include "planner/instance/motion_rules.hpp"
 #include "planner/reservation/reservation_table.hpp"
 #include "planner/solution/trajectory.hpp"
 
@@ -50,6 +52,16 @@ struct SearchLimits {
            (deadline && std::chrono::steady_clock::now() >= *deadline);
   }
 };
+
+/// What a ReservationTable is to know of the robots of an instance.
+inline Askers askers_of(const Instance& instance, const MotionRules& rules = {}) {
+  Askers askers{largest_radius_cells(instance) + rules.inflate_distance_cells, 0, rules.inflate_time_s};
+  for (const Agent& agent : instance.agents) {
+    askers.max_speed_cells_per_s = std::max(askers.max_speed_cells_per_s, agent.speed_cells_per_s);
+  }
+  if (instance.agents.empty()) askers.max_speed_cells_per_s = 1;
+  return askers;
+}
 
 class SingleAgentPlanner {
  public:

@@ -13,13 +13,41 @@ namespace sipplab {
 using NodeId = std::uint32_t;
 inline constexpr NodeId kNoNode = UINT32_MAX;
 
-struct SippNode {
+/// One cache line: a search waits for these more than for anything else.
+struct alignas(64) SippNode {
   SafeInterval interval;
   double arrival_s = kForever;  ///< earliest known; kForever: not reached yet
   double departure_s = 0;       ///< when the parent is left to arrive then
   double to_goal_s = 0;         ///< the heuristic: at most the time by steps from here to the goal, weighted
-  Cell cell;
+  /// No departure before this is safe on the straight way from `way_from`, unless that node was reached
+  /// earlier since. Several neighbours of a cell have the same parent.
+  double way_departure_s = 0;
+  std::int16_t x = 0;
+  std::int16_t y = 0;
   NodeId parent = kNoNode;
+  NodeId way_from = kNoNode;
+  std::uint16_t version = 0;  ///< how often the arrival fell; the last value stands for more as well
+  std::uint16_t way_version = 0;
+
+  Cell cell() const { return {x, y}; }
+  /// Whether an arrival no earlier than `soonest_s` may be in the interval and earlier than the one that is
+  /// known.
+  bool may_gain(double soonest_s) const {
+    const double earliest_s = interval.begin_s > soonest_s ? interval.begin_s : soonest_s;
+    return earliest_s <= interval.end_s && earliest_s < arrival_s;
+  }
+  /// REQUIRES: arrives_s <= arrival_s.
+  void reach(NodeId from, double leaves_s, double arrives_s) {
+    if (arrives_s < arrival_s && version < kLastVersion) ++version;
+    parent = from;
+    departure_s = leaves_s;
+    arrival_s = arrives_s;
+  }
+  /// Whether `way_departure_s` holds for node `id`.
+  bool knows_way_from(NodeId id, const SippNode& from) const {
+    return way_from == id && way_version == from.version && from.version < kLastVersion;
+  }
+  static constexpr std::uint16_t kLastVersion = UINT16_MAX;
 };
 
 }  // namespace sipplab

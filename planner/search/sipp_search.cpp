@@ -11,7 +11,10 @@ namespace {
 
 /// Width of a bucket of OPEN, in cells of way: small enough that few entries are sorted for
 /// nothing, wide enough that few buckets are empty.
-constexpr double kBucketCells = 0.1;
+constexpr double kBucketCells = 0.03;
+
+/// Seconds. Sums of durations along a way fall short of the straight one by roundings, at most by so much.
+constexpr double kSoonerS = 1e-6;
 
 /// Expansions between two looks at the clock; one takes some microseconds.
 constexpr std::uint64_t kExpansionsPerClockCheck = 64;
@@ -22,7 +25,10 @@ SippSearch::SippSearch(const Instance& instance, SippOptions options)
     : instance_(instance),
       options_(options),
       bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.detours})),
-      cell_nodes_(instance.map.cell_count()) {
+      cell_nodes_(arena_),
+      nodes_(arena_),
+      open_(arena_) {
+  cell_nodes_.assign(instance.map.cell_count(), CellNodes{});
   for (const Cell step : neighbourhood(options.connectedness)) step_lengths_.push_back(norm(centre(step)));
 }
 
@@ -38,7 +44,7 @@ Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, Reservation
   if (nodes_[at_goal.last - 1].interval.begin_s > limits.latest_arrival_s) {
     return Unexpected{PlanFailure::kNoPath};
   }
-  nodes_[at_start.first].arrival_s = 0;
+  nodes_[at_start.first].reach(kNoNode, 0, 0);
   open_.push(at_start.first, f(nodes_[at_start.first]), 0);
 
   const std::uint64_t expansions_before = statistics.expansions;
@@ -83,27 +89,29 @@ double SippSearch::lower_bound_s(AgentIndex agent) const {
 void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
   agent_ = &instance_.agents[agent];
   body_ = &bodies_.at(agent_->radius_cells);
-  if (options_.detours) body_->set_goal(agent_->goal, agent_->start);
+  if (options_.detours) body_->set_goal(agent_->goal);
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
-  straight_ways_.clear();
-  shot_blocker_ = ReservationTable::kNoDisk;
+  shot_blocker_ = way_blocker_ = ReservationTable::kNoDisk;
   open_.begin(options_.weight * heuristic_s(agent_->start), kBucketCells / agent_->speed_cells_per_s);
 }
 
-SippSearch::CellNodes SippSearch::nodes_of(Cell cell) {
+const SippSearch::CellNodes& SippSearch::lay_out(Cell cell) {
   CellNodes& nodes = cell_nodes_[instance_.map.index(cell)];
-  if (nodes.search != search_) {
-    nodes.search = search_;
-    nodes.first = static_cast<NodeId>(nodes_.size());
-    const double to_goal_s = options_.weight * heuristic_s(cell);
-    for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
-      nodes_.push_back({interval, kForever, 0, to_goal_s, cell, kNoNode});
-    }
-    straight_ways_.resize(nodes_.size());
-    nodes.last = static_cast<NodeId>(nodes_.size());
+  nodes.search = search_;
+  nodes.first = static_cast<NodeId>(nodes_.size());
+  SippNode node;
+  node.to_goal_s = options_.weight * heuristic_s(cell);
+  node.x = static_cast<std::int16_t>(cell.x);
+  node.y = static_cast<std::int16_t>(cell.y);
+  const double soonest_s = travel_s(agent_->start, cell) - kSoonerS;
+  for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
+    if (interval.end_s < soonest_s) continue;  // nobody comes in time
+    node.interval = interval;
+    nodes_.push_back(node);
   }
+  nodes.last = static_cast<NodeId>(nodes_.size());
   return nodes;
 }
 
@@ -117,12 +125,10 @@ double SippSearch::heuristic_s(Cell cell) {
 double SippSearch::lower_bound_s(Cell from, Cell to) const {
   const double cells =
       options_.any_angle ? distance(from, to) : neighbourhood_distance(from, to, options_.connectedness);
-  return cells / agent_->speed_cells_per_s;
+  return seconds(cells);
 }
 
-double SippSearch::travel_s(Cell from, Cell to) const {
-  return distance(from, to) / agent_->speed_cells_per_s;
-}
+double SippSearch::travel_s(Cell from, Cell to) const { return seconds(distance(from, to)); }
 
 bool SippSearch::is_overtaken(const OpenList::Entry& entry) const {
   const double known_s = nodes_[entry.node].arrival_s;
@@ -132,45 +138,60 @@ bool SippSearch::is_overtaken(const OpenList::Entry& entry) const {
 }
 
 bool SippSearch::is_goal(const SippNode& node) const {
-  return node.cell == agent_->goal && node.interval.end_s == kForever;
+  return node.cell() == agent_->goal && node.interval.end_s == kForever;
 }
 
 void SippSearch::expand(NodeId id, SearchStatistics& statistics) {
-  const Cell here = nodes_[id].cell;
+  const Cell here = nodes_[id].cell();
   const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
+  const Cell there = parent == kNoNode ? here : nodes_[parent].cell();
   const std::span<const Cell> steps = neighbourhood(options_.connectedness);
   std::uint32_t clear = body_->clear_steps(here, instance_.map.index(here));
   for (; clear != 0; clear &= clear - 1) {
     const auto step = static_cast<std::size_t>(std::countr_zero(clear));
     const Cell cell{here.x + steps[step].x, here.y + steps[step].y};
-    const bool straight = parent != kNoNode && nodes_[parent].cell != cell &&
-                          body_->line_of_sight.is_clear(nodes_[parent].cell, cell);
-    offer(id, straight ? parent : kNoNode, cell, step_lengths_[step] / agent_->speed_cells_per_s, statistics);
+    const auto [search, first, last] = nodes_of(cell);
+    const SippNode& near = nodes_[id];
+    const double step_s = step_lengths_[step] / agent_->speed_cells_per_s;
+    const double by_step_s = near.arrival_s + step_s;
+    NodeId from = kNoNode;  // straight to the cell
+    double straight_s = step_s;
+    double soonest_s = by_step_s;
+    double latest_s = near.interval.end_s + step_s;
+    NodeId target = first;
+    if (parent != kNoNode && there != cell) {
+      // By the triangle inequality nobody arrives sooner than straight from the parent, seen or not.
+      const SippNode& far = nodes_[parent];
+      const double far_s = travel_s(there, cell);
+      const double far_soonest_s = far.arrival_s + far_s;
+      const double far_latest_s = std::max(latest_s, far.interval.end_s + far_s);
+      while (target != last && !nodes_[target].may_gain(far_soonest_s)) ++target;
+      if (target == last || nodes_[target].interval.begin_s > far_latest_s) continue;
+      if (body_->line_of_sight.is_clear(there, cell)) {
+        from = parent;
+        straight_s = far_s;
+        soonest_s = far_soonest_s;
+        latest_s = far_latest_s;
+      }
+    }
+    for (; target != last && nodes_[target].interval.begin_s <= latest_s; ++target) {
+      const SippNode& node = nodes_[target];
+      double sooner_s = soonest_s;
+      if (from != kNoNode && node.knows_way_from(from, nodes_[from])) {
+        sooner_s = std::min(std::max(sooner_s, node.way_departure_s + straight_s), by_step_s);
+      }
+      if (node.may_gain(sooner_s))
+        offer(id, from, target, std::max(sooner_s, node.interval.begin_s), statistics);
+    }
   }
 }
 
-void SippSearch::offer(NodeId from, NodeId parent, Cell cell, double step_s, SearchStatistics& statistics) {
-  const CellNodes targets = nodes_of(cell);
-  const SippNode& near = nodes_[from];
-  const SippNode& far = nodes_[parent == kNoNode ? from : parent];
-  const double straight_s = parent == kNoNode ? step_s : travel_s(far.cell, cell);
-  const double latest_s = std::max(near.interval.end_s + step_s, far.interval.end_s + straight_s);
-  for (NodeId id = targets.first; id != targets.last; ++id) {
-    const SippNode& target = nodes_[id];
-    if (target.interval.begin_s > latest_s) return;
-    // By the triangle inequality nobody arrives sooner than straight from the parent.
-    double soonest_s = far.arrival_s + straight_s;
-    if (const StraightWay& way = straight_ways_[id];
-        way.from == parent && parent != kNoNode && way.from_arrival_s == far.arrival_s) {
-      soonest_s = std::min(std::max(soonest_s, way.departure_s + straight_s), near.arrival_s + step_s);
-    }
-    const double arrival_s = std::max(soonest_s, target.interval.begin_s);
-    if (arrival_s > target.interval.end_s || arrival_s >= target.arrival_s) continue;
-    if (options_.lazy_evaluation) {
-      open_.push_promise(id, arrival_s + target.to_goal_s, arrival_s, from, parent);
-    } else if (relax(from, parent, id, statistics)) {
-      open_.push(id, f(target), target.arrival_s);
-    }
+void SippSearch::offer(NodeId from, NodeId parent, NodeId id, double arrival_s,
+                       SearchStatistics& statistics) {
+  if (options_.lazy_evaluation) {
+    open_.push_promise(id, arrival_s + nodes_[id].to_goal_s, arrival_s, from, parent);
+  } else if (relax(from, parent, id, statistics)) {
+    open_.push(id, f(nodes_[id]), nodes_[id].arrival_s);
   }
 }
 
@@ -195,9 +216,9 @@ bool SippSearch::relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& 
 }
 
 bool SippSearch::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
-  const Cell first = nodes_[parent].cell;
-  const Cell middle = nodes_[from].cell;
-  const Cell last = nodes_[id].cell;
+  const Cell first = nodes_[parent].cell();
+  const Cell middle = nodes_[from].cell();
+  const Cell last = nodes_[id].cell();
   const std::int64_t cross = std::int64_t{middle.x - first.x} * (last.y - middle.y) -
                              std::int64_t{middle.y - first.y} * (last.x - middle.x);
   const std::int64_t dot = std::int64_t{middle.x - first.x} * (last.x - middle.x) +
@@ -207,62 +228,52 @@ bool SippSearch::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
 
 bool SippSearch::arrive_straight(NodeId parent, NodeId id) {
   const SippNode& origin = nodes_[parent];
-  const SippNode& target = nodes_[id];
-  StraightWay& known = straight_ways_[id];
-  const double duration_s = travel_s(origin.cell, target.cell);
-  double from_s = std::max(origin.arrival_s, target.interval.begin_s - duration_s);
-  if (known.from == parent && known.from_arrival_s == origin.arrival_s) {
-    from_s = std::max(from_s, known.departure_s);
-  }
-  const double until_s = latest_departure_s(origin, target, duration_s);
-  if (from_s > until_s) return false;
-  const Move move(Displacement(centre(origin.cell), centre(target.cell)), agent_->speed_cells_per_s);
-  const double departure_s = earliest_departure(move, from_s, until_s);
-  known = {parent, origin.arrival_s, departure_s};
-  return departure_s <= until_s && arrive(parent, id, departure_s, duration_s, Tie::kKeep);
-}
-
-bool SippSearch::arrive_by_step(NodeId from, NodeId id, Tie tie) {
-  const SippNode& origin = nodes_[from];
-  const SippNode& target = nodes_[id];
-  const double duration_s = travel_s(origin.cell, target.cell);
-  const double from_s = std::max(origin.arrival_s, target.interval.begin_s - duration_s);
-  const double until_s = latest_departure_s(origin, target, duration_s);
-  if (from_s > until_s) return false;
-  const Move move(Displacement(centre(origin.cell), centre(target.cell)), agent_->speed_cells_per_s);
-  const double departure_s = earliest_departure(move, from_s, until_s);
-  return departure_s <= until_s && arrive(from, id, departure_s, duration_s, tie);
-}
-
-double SippSearch::latest_departure_s(const SippNode& origin, const SippNode& target,
-                                      double duration_s) const {
-  return std::min({origin.interval.end_s, target.interval.end_s - duration_s, target.arrival_s - duration_s});
-}
-
-bool SippSearch::arrive(NodeId from, NodeId id, double departure_s, double duration_s, Tie tie) {
   SippNode& target = nodes_[id];
-  if (departure_s == kForever) return false;
+  const double known_s = target.knows_way_from(parent, origin) ? target.way_departure_s : 0;
+  double departure_s = 0;
+  const bool arrived = arrive(parent, id, known_s, Tie::kKeep, &way_blocker_, departure_s);
+  if (departure_s > 0) {
+    target.way_from = parent;
+    target.way_version = origin.version;
+    target.way_departure_s = departure_s;
+  }
+  return arrived;
+}
+
+bool SippSearch::arrive(NodeId from, NodeId id, double known_s, Tie tie,
+                        ReservationTable::DiskId* likely_blocker, double& departure_s) {
+  const SippNode& origin = nodes_[from];
+  SippNode& target = nodes_[id];
+  const Vec2 begin = centre(origin.cell());
+  const Vec2 end = centre(target.cell());
+  const double cells = norm(end - begin);
+  const double duration_s = seconds(cells);
+  const double from_s = std::max({origin.arrival_s, target.interval.begin_s - duration_s, known_s});
+  const double until_s =
+      std::min({origin.interval.end_s, target.interval.end_s - duration_s, target.arrival_s - duration_s});
+  if (from_s > until_s) return false;
+  const Move move(Displacement(begin, end, {(end.x - begin.x) / cells, (end.y - begin.y) / cells}, cells),
+                  agent_->speed_cells_per_s);
+  departure_s = earliest_departure(move, from_s, until_s, likely_blocker);
+  if (departure_s > until_s || departure_s == kForever) {
+    departure_s = until_s;  // how much later depends on who is met first
+    return false;
+  }
   const double arrival_s = std::max(departure_s + duration_s, target.interval.begin_s);
   if (arrival_s > target.arrival_s || (arrival_s == target.arrival_s && tie == Tie::kKeep)) return false;
-  target.arrival_s = arrival_s;
-  target.departure_s = departure_s;
-  target.parent = from;
+  target.reach(from, departure_s, arrival_s);
   return true;
 }
 
 bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   const SippNode& origin = nodes_[id];
-  const NodeId goal_id = nodes_of(agent_->goal).last - 1;
-  SippNode& goal = nodes_[goal_id];
-  if (origin.cell == agent_->goal || !body_->line_of_sight.is_clear(origin.cell, agent_->goal)) return false;
-  const Move move(Displacement(centre(origin.cell), centre(agent_->goal)), agent_->speed_cells_per_s);
+  SippNode& goal = nodes_[nodes_of(agent_->goal).last - 1];
+  if (origin.cell() == agent_->goal || !body_->line_of_sight.is_clear(origin.cell(), agent_->goal))
+    return false;
+  const Move move(Displacement(centre(origin.cell()), centre(agent_->goal)), agent_->speed_cells_per_s);
   const double departure_s = std::max(origin.arrival_s, goal.interval.begin_s - move.duration);
   if (departure_s > origin.interval.end_s) return false;
-  const double safe_s = options_.indexed_reservations
-                            ? reservations_->earliest_departure(move, agent_->radius_cells, departure_s,
-                                                                departure_s, &shot_blocker_)
-                            : earliest_departure(move, departure_s, departure_s);
-  if (safe_s > departure_s) return false;
+  if (earliest_departure(move, departure_s, departure_s, &shot_blocker_) > departure_s) return false;
   ++statistics.generations;
   goal.departure_s = departure_s;
   goal.arrival_s = std::max(departure_s + move.duration, goal.interval.begin_s);
@@ -270,9 +281,10 @@ bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
   return true;
 }
 
-double SippSearch::earliest_departure(const Move& move, double from_s, double until_s) {
+double SippSearch::earliest_departure(const Move& move, double from_s, double until_s,
+                                      ReservationTable::DiskId* likely_blocker) {
   return options_.indexed_reservations
-             ? reservations_->earliest_departure(move, agent_->radius_cells, from_s, until_s)
+             ? reservations_->earliest_departure(move, agent_->radius_cells, from_s, until_s, likely_blocker)
              : reservations_->earliest_departure_plain(move, agent_->radius_cells, from_s, until_s);
 }
 
@@ -301,8 +313,8 @@ void SippSearch::straighten(std::span<const NodeId> way) {
       if (node.departure_s == nodes_[bend].arrival_s && is_on_the_way(before, bend, id)) {
         node.parent = before;
         node.departure_s = nodes_[bend].departure_s;
-      } else if (nodes_[before].cell == node.cell ||
-                 !body_->line_of_sight.is_clear(nodes_[before].cell, node.cell) ||
+      } else if (nodes_[before].cell() == node.cell() ||
+                 !body_->line_of_sight.is_clear(nodes_[before].cell(), node.cell()) ||
                  !arrive_straight(before, id)) {
         break;
       }
@@ -320,11 +332,11 @@ Trajectory SippSearch::reconstruct(std::span<const NodeId> way) const {
     const bool waits = to.departure_s > from.arrival_s;
     if (options_.any_angle && left != kNoNode && !waits && is_on_the_way(left, way[i - 1], way[i])) {
       trajectory.motions.back().end_s = to.arrival_s;
-      trajectory.motions.back().to = to.cell;
+      trajectory.motions.back().to = to.cell();
       continue;
     }
-    if (waits) trajectory.motions.push_back({from.arrival_s, to.departure_s, from.cell, from.cell});
-    trajectory.motions.push_back({to.departure_s, to.arrival_s, from.cell, to.cell});
+    if (waits) trajectory.motions.push_back({from.arrival_s, to.departure_s, from.cell(), from.cell()});
+    trajectory.motions.push_back({to.departure_s, to.arrival_s, from.cell(), to.cell()});
     left = way[i - 1];
   }
   return trajectory;

@@ -64,20 +64,20 @@ class SippSearch final : public SingleAgentPlanner {
     NodeId last = kNoNode;  ///< one past
   };
 
-  /// What is known about the straight way to a node from one other node: no departure
-  /// before `departure_s` is safe. Several neighbours of a cell have the same parent.
-  struct StraightWay {
-    NodeId from = kNoNode;
-    double from_arrival_s = 0;  ///< when it was found; an earlier one makes it void
-    double departure_s = 0;
-  };
-
   void begin(AgentIndex agent, ReservationTable& reservations);
-  CellNodes nodes_of(Cell cell);
+  const CellNodes& nodes_of(Cell cell) {
+    const CellNodes& nodes = cell_nodes_[instance_.map.index(cell)];
+    return nodes.search == search_ ? nodes : lay_out(cell);
+  }
+  const CellNodes& lay_out(Cell cell);
   double lower_bound_s(Cell from, Cell to) const;
   /// At most what the way by steps from the cell to the goal takes; not weighted.
   double heuristic_s(Cell cell);
   double travel_s(Cell from, Cell to) const;
+  double seconds(double cells) const {
+    const double speed = agent_->speed_cells_per_s;
+    return speed == 1 ? cells : cells / speed;
+  }
   /// At most the arrival at the goal by the node and steps from there, what is ahead weighted.
   static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
   bool is_goal(const SippNode& node) const;
@@ -85,10 +85,9 @@ class SippSearch final : public SingleAgentPlanner {
   bool is_overtaken(const OpenList::Entry& entry) const;
 
   void expand(NodeId id, SearchStatistics& statistics);
-  /// Promises the nodes of `cell`, a neighbour of `from`, that may be reached from it in
-  /// `step_s`, or straight from `parent` (kNoNode: there is no such way), earlier than known
-  /// so far.
-  void offer(NodeId from, NodeId parent, Cell cell, double step_s, SearchStatistics& statistics);
+  /// Promises node `id`, a neighbour of `from`, which may be reached from it or straight from `parent`
+  /// (kNoNode: there is no such way), no earlier than at `arrival_s`.
+  void offer(NodeId from, NodeId parent, NodeId id, double arrival_s, SearchStatistics& statistics);
   /// Computes what a promise is worth. Whether it lowered the arrival at the node.
   bool relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics);
   /// Whether `from` lies on the straight line from `parent` to node `id`.
@@ -98,14 +97,19 @@ class SippSearch final : public SingleAgentPlanner {
   /// Which way to keep of two that arrive at the same time.
   enum class Tie { kKeep, kReplace };
   /// Lowers the arrival at node `id` to that of the step from `from`, if earlier.
-  bool arrive_by_step(NodeId from, NodeId id, Tie tie);
-  /// The last departure that reaches the node while it is safe and no later than known.
-  double latest_departure_s(const SippNode& origin, const SippNode& target, double duration_s) const;
-  bool arrive(NodeId from, NodeId id, double departure_s, double duration_s, Tie tie);
+  bool arrive_by_step(NodeId from, NodeId id, Tie tie) {
+    double departure_s = 0;
+    return arrive(from, id, 0, tie, nullptr, departure_s);
+  }
+  /// The same for any straight way on which no departure before `known_s` is safe. What is asked of the
+  /// reservations then, if anything, is answered in `departure_s`.
+  bool arrive(NodeId from, NodeId id, double known_s, Tie tie, ReservationTable::DiskId* likely_blocker,
+              double& departure_s);
   /// Whether the straight way to the goal is safe when the node is left at once, or in time for
   /// the moment from which the goal is free; then the goal's node says so.
   bool shoot(NodeId id, SearchStatistics& statistics);
-  double earliest_departure(const Move& move, double from_s, double until_s);
+  double earliest_departure(const Move& move, double from_s, double until_s,
+                            ReservationTable::DiskId* likely_blocker);
   /// What is handed over once the goal's node is reached.
   Trajectory finish(NodeId goal);
   /// From the start.
@@ -119,16 +123,17 @@ class SippSearch final : public SingleAgentPlanner {
   SippOptions options_;
   Bodies bodies_;
   std::vector<double> step_lengths_;  ///< in cells, by step of the neighbourhood
+  Arena arena_;
 
   // The search under way.
   const Agent* agent_ = nullptr;
   Body* body_ = nullptr;
   ReservationTable* reservations_ = nullptr;
   std::uint32_t search_ = 0;
-  std::vector<CellNodes> cell_nodes_;
-  std::vector<SippNode> nodes_;
-  std::vector<StraightWay> straight_ways_;                             ///< by node
+  ArenaVector<CellNodes> cell_nodes_;
+  ArenaVector<SippNode> nodes_;
   ReservationTable::DiskId shot_blocker_ = ReservationTable::kNoDisk;  ///< of the last shot
+  ReservationTable::DiskId way_blocker_ = ReservationTable::kNoDisk;   ///< of the last straight way
   OpenList open_;
 };
 

@@ -88,7 +88,7 @@ Expected<Trajectory, PlanFailure> TurningSearch::plan(AgentIndex agent, Reservat
 void TurningSearch::begin(const Agent& agent, ReservationTable& reservations) {
   agent_ = &agent;
   body_ = &bodies_.at(agent.radius_cells);
-  if (options_.detours) body_->set_goal(agent.goal, agent.start);
+  if (options_.detours) body_->set_goal(agent.goal);
   reservations_ = &reservations;
   ++search_;
   stays_.clear();

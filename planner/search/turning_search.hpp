@@ -98,7 +98,8 @@ class TurningSearch final : public SingleAgentPlanner {
   std::vector<CellStays> cell_stays_;
   std::vector<Stay> stays_;
   std::vector<State> states_;
-  OpenList open_;
+  Arena arena_;
+  OpenList open_{arena_};
 };
 
 }  // namespace sipplab

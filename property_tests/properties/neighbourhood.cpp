@@ -130,7 +130,7 @@ int main() {
         for (int round = 0; round < 3; ++round) {
           const Cell goal = *rc::gen::elementOf(goals);
           const std::vector<double> ways = shortest_ways(maze.map, goal, k, may_step);
-          distances.set_goal(goal, any_place());
+          distances.set_goal(goal);
           for (int i = 0; i < 5; ++i) {
             const Cell cell = any_place();
             const double way = ways[maze.map.index(cell)];

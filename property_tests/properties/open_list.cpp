@@ -47,7 +47,8 @@ std::size_t first_of(const std::vector<std::pair<Step, NodeId>>& waiting) {
 }
 
 void same_as_a_list(const std::vector<Step>& steps) {
-  OpenList open;
+  Arena arena;
+  OpenList open(arena);
   std::vector<std::pair<Step, NodeId>> waiting;  // as they came
   NodeId next = 0;
   const auto take = [&] {

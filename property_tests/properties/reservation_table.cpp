@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planner/geometry/collision_interval.hpp"
+#include "planner/geometry/interval_set.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
@@ -36,7 +37,7 @@ struct Guard {
 };
 
 struct Traffic {
-  double largest_radius = 1.5;  ///< of robots that ask, in cells
+  Askers askers;
   std::vector<Cell> blocked;
   std::vector<Guard> guards;
   std::vector<Walk> walks;
@@ -58,7 +59,9 @@ struct Query {
 };
 
 std::ostream& operator<<(std::ostream& out, const Traffic& traffic) {
-  out << "robots up to radius " << traffic.largest_radius << "\n";
+  out << "robots up to radius " << traffic.askers.max_radius_cells << " and speed "
+      << traffic.askers.max_speed_cells_per_s << ", disks " << traffic.askers.time_margin_s
+      << " s sooner and later\n";
   for (const Cell cell : traffic.blocked) out << "blocked (" << cell.x << ", " << cell.y << ")\n";
   for (const Guard& guard : traffic.guards) {
     out << (guard.removed ? "removed " : "") << "guard (" << guard.place.x << ", " << guard.place.y
@@ -96,7 +99,12 @@ rc::Gen<Traffic> any_traffic() {
       rc::gen::set(&Guard::begin_s, any_of({0.0, 0.0, 1.5})),
       rc::gen::set(&Guard::rest_s, any_of({5.0, 1.0, 2.5, kForever})),
       rc::gen::set(&Guard::radius, any_radius()), rc::gen::set(&Guard::removed, rc::gen::arbitrary<bool>()));
-  return rc::gen::build<Traffic>(rc::gen::set(&Traffic::largest_radius, any_of({1.5, 0.5, 0.25})),
+  const auto any_askers = rc::gen::build<Askers>(
+      rc::gen::set(&Askers::max_radius_cells, any_of({1.5, 0.5, 0.25})),
+      // Slower than the robots that ask, and so fast that slow ones are as good as at rest.
+      rc::gen::set(&Askers::max_speed_cells_per_s, any_of({1.0, 1.0, 0.25, 40.0})),
+      rc::gen::set(&Askers::time_margin_s, any_of({0.0, 0.0, 0.0, 0.5})));
+  return rc::gen::build<Traffic>(rc::gen::set(&Traffic::askers, any_askers),
                                  rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
                                  rc::gen::set(&Traffic::guards, up_to(4, any_guard)),
                                  rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))),
@@ -116,7 +124,7 @@ rc::Gen<std::vector<Query>> any_queries() {
 class Filled {
  public:
   explicit Filled(const Traffic& traffic)
-      : largest_radius_(traffic.largest_radius), map_(kWidth, kHeight), table_(map_, traffic.largest_radius) {
+      : askers_(traffic.askers), map_(kWidth, kHeight), table_(map_, traffic.askers) {
     for (const Cell cell : traffic.blocked) map_.set_blocked(cell, true);
     fill(traffic);
   }
@@ -133,9 +141,10 @@ class Filled {
         disks_.push_back(guard.disk());
       }
     }
-    ask_everywhere(largest_radius_);
+    ask_everywhere(askers_.max_radius_cells);
     for (std::size_t i = 0; i < traffic.walks.size(); ++i) {
-      if (i == traffic.walks.size() / 2) ask_everywhere(i % 2 == 0 ? largest_radius_ : largest_radius_ / 2);
+      if (i == traffic.walks.size() / 2)
+        ask_everywhere(i % 2 == 0 ? askers_.max_radius_cells : askers_.max_radius_cells / 2);
       const Walk& walk = traffic.walks[i];
       if (traffic.removes_walk(i)) {
         for (const auto id : table_.add(walk.trajectory(), walk.radius)) to_remove.push_back(id);
@@ -143,9 +152,9 @@ class Filled {
         add(walk);
       }
     }
-    ask_everywhere(largest_radius_);
+    ask_everywhere(askers_.max_radius_cells);
     for (const ReservationTable::DiskId id : to_remove) table_.remove(id);
-    ask_everywhere(largest_radius_);
+    ask_everywhere(askers_.max_radius_cells);
     // Once more after a removal.
     if (!traffic.walks.empty()) add(traffic.walks.front());
   }
@@ -155,7 +164,8 @@ class Filled {
     disks_.clear();
   }
 
-  double largest_radius() const { return largest_radius_; }
+  double largest_radius() const { return askers_.max_radius_cells; }
+  double time_margin_s() const { return askers_.time_margin_s; }
   const GridMap& map() const { return map_; }
   ReservationTable& table() { return table_; }
   const std::vector<MovingDisk>& disks() const { return disks_; }
@@ -171,7 +181,7 @@ class Filled {
     for (std::size_t i = 0; i < map_.cell_count(); ++i) table_.safe_intervals(map_.cell(i), radius);
   }
 
-  double largest_radius_;
+  Askers askers_;
   GridMap map_;
   ReservationTable table_;
   std::vector<MovingDisk> disks_;
@@ -186,7 +196,10 @@ void intervals_are_cut_by_every_disk(Filled& filled) {
       if (filled.map().is_blocked(cell)) continue;
       IntervalSet expected;
       for (const MovingDisk& disk : filled.disks()) {
-        expected.remove_open(collision_interval(centre(cell), disk, radius + disk.radius));
+        const OpenInterval unsafe = collision_interval(centre(cell), disk, radius + disk.radius);
+        if (unsafe.empty()) continue;
+        expected.remove_open(
+            {unsafe.begin_s - filled.time_margin_s(), unsafe.end_s + filled.time_margin_s()});
       }
       RC_LOG() << "cell (" << cell.x << ", " << cell.y << ") radius " << radius << std::endl;
       const std::span<const SafeInterval> safe = filled.table().safe_intervals(cell, radius);
@@ -245,7 +258,7 @@ double deepest_overlap(const std::vector<MovingDisk>& disks, const Query& query,
   return deepest;
 }
 
-/// How many departures were found, and how often there was none.
+/// How many departures were found, and how often there was none. Without a margin in time.
 std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query>& queries) {
   /// Seconds: between departures that are tried, and the last of them.
   constexpr double kTryStepS = 1.0 / 16;
@@ -302,7 +315,9 @@ int main() {
     int found = 0;
     int given_up = 0;
     for (int i = 0; i < kTrafficsPerCase; ++i) {
-      Filled filled(*any_traffic());
+      Traffic traffic = *any_traffic();
+      traffic.askers.time_margin_s = 0;
+      Filled filled(traffic);
       const std::pair<int, int> counts = is_the_earliest_safe(filled, *any_queries());
       found += counts.first;
       given_up += counts.second;

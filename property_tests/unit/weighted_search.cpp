@@ -87,7 +87,7 @@ TEST(Detours, AreFoundAgainWhereTheyWereForgotten) {
       static_cast<std::int32_t>(StaticDistances::kMostKeptBytes / map.cell_count() / 8) + 4;
   for (int round = 0; round < 2; ++round) {
     for (std::int32_t goal = 0; goal < goals; ++goal) {
-      distances.set_goal({501 + goal, 2}, {499, 2});
+      distances.set_goal({501 + goal, 2});
       // One cell up, past the corner, and down again: aslant where there is room.
       EXPECT_NEAR(distances.detour_cells({499, 2}), goal == 0 ? 2 : std::sqrt(2.0), 1e-9);
     }

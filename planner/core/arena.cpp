@@ -1,0 +1,122 @@
+#include "planner/core/arena.hpp"
+
+#include <mutex>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace sipplab {
+namespace {
+
+/// Bytes of the first chunk: what planning a dozen robots takes. Each further one of an arena is as large as
+/// all before it, up to the largest.
+constexpr std::size_t kFirstChunk = std::size_t{128} << 10;
+constexpr std::size_t kLargestChunk = std::size_t{8} << 20;
+/// What is kept for later when it is given back; more goes back to the system.
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
+constexpr std::size_t kSmallestPiece = 64;
+
+/// Brings the pages in at one go; nothing is lost where the system cannot.
+void make_ready([[maybe_unused]] std::byte* begin, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+  madvise(begin, bytes, MADV_POPULATE_WRITE);
+#elif defined(__linux__)
+  constexpr int kPopulateWrite = 23;  // Linux 5.14; older C libraries do not name it
+  madvise(begin, bytes, kPopulateWrite);
+#endif
+}
+
+constexpr std::align_val_t kPage{4096};
+
+}  // namespace
+
+/// Chunks that no arena holds at the moment.
+class ChunkStore {
+ public:
+  static ChunkStore& of_process() {
+    static ChunkStore* const store = new ChunkStore;  // outlives every arena, whatever is destroyed first
+    return *store;
+  }
+
+  Arena::Chunk take(std::size_t least_bytes) {
+    {
+      const std::lock_guard lock(mutex_);
+      // The smallest that is large enough, since the large ones are dear.
+      auto best = kept_.end();
+      for (auto chunk = kept_.begin(); chunk != kept_.end(); ++chunk) {
+        if (chunk->bytes >= least_bytes && (best == kept_.end() || chunk->bytes < best->bytes)) best = chunk;
+      }
+      if (best != kept_.end()) {
+        const Arena::Chunk chunk = *best;
+        kept_.erase(best);
+        kept_bytes_ -= chunk.bytes;
+        return chunk;
+      }
+    }
+    const Arena::Chunk chunk{static_cast<std::byte*>(operator new(least_bytes, kPage)), least_bytes};
+    make_ready(chunk.begin, chunk.bytes);
+    return chunk;
+  }
+
+  void give_back(const Arena::Chunk& chunk) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (kept_bytes_ + chunk.bytes <= kMostKept) {
+        kept_bytes_ += chunk.bytes;
+        kept_.push_back(chunk);
+        return;
+      }
+    }
+    operator delete(chunk.begin, kPage);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Arena::Chunk> kept_;
+  std::size_t kept_bytes_ = 0;
+};
+
+std::size_t Arena::size_class(std::size_t bytes) {
+  bytes = std::max(bytes, kSmallestPiece);
+  const auto log = static_cast<std::size_t>(std::bit_width(bytes - 1));  // 2^log >= bytes
+  const bool three_quarters = bytes <= (std::size_t{3} << log) / 4;
+  return 2 * log - (three_quarters ? 1 : 0);
+}
+
+std::size_t Arena::size_of(std::size_t size_class) {
+  const std::size_t log = (size_class + 1) / 2;
+  return size_class % 2 == 0 ? std::size_t{1} << log : (std::size_t{3} << log) / 4;
+}
+
+void* Arena::take_bytes(std::size_t size_class) {
+  if (FreePiece* const piece = free_[size_class]; piece != nullptr) {
+    free_[size_class] = piece->next;
+    return piece;
+  }
+  const std::size_t bytes = (size_of(size_class) + kAlignment - 1) / kAlignment * kAlignment;
+  if (static_cast<std::size_t>(end_ - next_) < bytes) add_chunk(bytes);
+  std::byte* const piece = next_;
+  next_ += bytes;
+  return piece;
+}
+
+void Arena::add_chunk(std::size_t least_bytes) {
+  std::size_t bytes = kFirstChunk;
+  for (const Chunk& chunk : chunks_) bytes += chunk.bytes;
+  bytes = std::min(std::bit_ceil(bytes), kLargestChunk);
+  const Chunk chunk = ChunkStore::of_process().take(std::max(bytes, std::bit_ceil(least_bytes)));
+  chunks_.push_back(chunk);
+  next_ = chunk.begin;
+  end_ = chunk.begin + chunk.bytes;
+}
+
+void Arena::reset() {
+  for (const Chunk& chunk : chunks_) ChunkStore::of_process().give_back(chunk);
+  chunks_.clear();
+  free_.fill(nullptr);
+  next_ = end_ = nullptr;
+}
+
+}  // namespace sipplab

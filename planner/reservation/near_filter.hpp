@@ -1,0 +1,133 @@
+// Four disks at a time: which of them may come near a robot during a slice of time? In the compilers' own
+// vectors, so that every machine has it; what it lets through is decided exactly afterwards.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "planner/geometry/vec2.hpp"
+
+namespace sipplab {
+
+/// A disk's motion during one slice, as a line in the time since the slice began, in slices.
+struct alignas(32) SliceEntry {
+  float x;  ///< at the beginning of the slice, on the line
+  float y;
+  float vx;  ///< cells per slice
+  float vy;
+  float begin;  ///< of its stay on the line
+  float end;
+  float radius;
+  std::uint32_t disk;
+};
+
+/// Four disks that stay where they are for long, or near there. Times are absolute.
+struct alignas(16) StayFour {
+  static constexpr std::uint32_t kNobody = UINT32_MAX;
+
+  std::array<float, 4> x;
+  std::array<float, 4> y;
+  std::array<float, 4> radius;
+  std::array<float, 4> begin_s;
+  std::array<float, 4> end_s;
+  std::array<std::uint32_t, 4> disk;  ///< kNobody where there is room
+  std::uint32_t next;                 ///< the four that come next, or 0
+};
+
+/// The motion of a robot during a slice, or a part of it, in the same terms; one value four times over.
+class NearFilter {
+  using Float4 [[gnu::vector_size(16)]] = float;
+  using Int4 [[gnu::vector_size(16)]] = std::int32_t;
+
+ public:
+  /// `velocity` in cells per slice.
+  NearFilter(Vec2 velocity, double reach)
+      : vx_(all(velocity.x)),
+        vy_(all(velocity.y)),
+        vx_squared_(all(velocity.x / squared_norm(velocity))),
+        vy_squared_(all(velocity.y / squared_norm(velocity))),
+        reach_(all(reach)) {}
+
+  /// From now on the robot is at this place when the slice begins, and what counts is [begin, end] of it.
+  void set(Vec2 place, double begin, double end) {
+    x_ = all(place.x);
+    y_ = all(place.y);
+    begin_ = all(begin);
+    end_ = all(end);
+  }
+
+  /// Bit i is set where the two come nearer than the sum of entry i's radius and `reach` in the time that
+  /// they share, as far as floats can tell.
+  unsigned near(const SliceEntry& a, const SliceEntry& b, const SliceEntry& c, const SliceEntry& d) const {
+    Float4 x = load(&a.x), y = load(&b.x), vx = load(&c.x), vy = load(&d.x);
+    transpose(x, y, vx, vy);
+    Float4 begin = load(&a.begin), end = load(&b.begin), radius = load(&c.begin), disk = load(&d.begin);
+    transpose(begin, end, radius, disk);
+    begin = begin > begin_ ? begin : begin_;
+    const Float4 span = (end < end_ ? end : end_) - begin;
+    vx -= vx_;
+    vy -= vy_;
+    x += vx * begin - x_;
+    y += vy * begin - y_;
+    // When they are nearest to each other; not a number, and then at once, where they move alike.
+    Float4 nearest = -(x * vx + y * vy) / (vx * vx + vy * vy);
+    nearest = nearest > 0.0F ? nearest : Float4{};
+    nearest = nearest < span ? nearest : span;
+    x += vx * nearest;
+    y += vy * nearest;
+    radius += reach_;
+    return bits((x * x + y * y < radius * radius) & (span >= 0.0F));
+  }
+
+  /// The same for those that stay, and are there between the two times.
+  unsigned near(const StayFour& stays, double from_s, double until_s) const {
+    Float4 x = load(stays.x.data()) - x_;
+    Float4 y = load(stays.y.data()) - y_;
+    Float4 nearest = x * vx_squared_ + y * vy_squared_;
+    nearest = nearest > begin_ ? nearest : begin_;
+    nearest = nearest < end_ ? nearest : end_;
+    x -= vx_ * nearest;
+    y -= vy_ * nearest;
+    const Float4 radius = load(stays.radius.data()) + reach_;
+    return bits((x * x + y * y < radius * radius) & (load(stays.begin_s.data()) < all(until_s)) &
+                (load(stays.end_s.data()) > all(from_s)));
+  }
+
+ private:
+  static Float4 all(double value) {
+    const auto one = static_cast<float>(value);
+    return Float4{one, one, one, one};
+  }
+  static Float4 load(const float* four) {
+    Float4 values;
+    std::memcpy(&values, four, sizeof values);
+    return values;
+  }
+  /// Rows to columns.
+  static void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
+    const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Float4 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Float4 cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Float4 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  }
+  /// Of lanes that are all ones or all zeros.
+  static unsigned bits(Int4 lanes) {
+#if defined(__SSE__)
+    return static_cast<unsigned>(__builtin_ia32_movmskps(__builtin_bit_cast(Float4, lanes)));
+#else
+    return static_cast<unsigned>((lanes[0] & 1) | (lanes[1] & 2) | (lanes[2] & 4) | (lanes[3] & 8));
+#endif
+  }
+
+  Float4 vx_, vy_;
+  Float4 vx_squared_, vy_squared_;  ///< over the square of the speed
+  Float4 reach_;
+  Float4 x_{}, y_{}, begin_{}, end_{};
+};
+
+}  // namespace sipplab

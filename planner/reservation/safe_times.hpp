@@ -1,0 +1,85 @@
+// By cell: who comes near its centre, and when a robot may stay there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/core/arena.hpp"
+#include "planner/geometry/interval.hpp"
+#include "planner/geometry/moving_disk.hpp"
+#include "planner/grid/grid_map.hpp"
+
+namespace sipplab {
+
+/// Safe intervals of every cell for robots of a few radii, kept up to date as disks are added. Where one was
+/// removed they are cut out of all time anew when asked for, by the list of those near the cell.
+class SafeTimes {
+ public:
+  using DiskId = std::uint32_t;
+
+  SafeTimes(const GridMap& map, double max_radius_cells, double time_margin_s, Arena& arena);
+
+  /// Forgets all, after a reset of the arena.
+  void clear();
+
+  void add(const MovingDisk& disk, DiskId id);
+  /// REQUIRES: the same was added and not removed since.
+  void remove(const MovingDisk& disk, DiskId id);
+
+  /// In order. `disks` are all that were added, by id.
+  std::span<const SafeInterval> at(std::size_t cell, double radius, const std::vector<MovingDisk>& disks) {
+    for (std::size_t i = 0; i < used_; ++i) {
+      if (by_radius_[i].radius != radius) continue;
+      const Set& set = by_radius_[i].sets[cell];
+      if (set.capacity == 0) return {&kAllTime, 1};
+      if (set.size != kUnknown) return {&intervals_[set.offset], set.size};
+    }
+    return found_out(cell, radius, disks);
+  }
+
+ private:
+  static constexpr SafeInterval kAllTime{};
+  static constexpr std::uint32_t kUnknown = UINT32_MAX;
+  static constexpr std::size_t kMostRadii = 4;  ///< that are kept up to date
+
+  /// Intervals in a row; all of time where there is no room for any.
+  struct Set {
+    std::uint32_t offset;
+    std::uint32_t size;
+    std::uint32_t capacity;
+  };
+  struct OfRadius {
+    double radius;
+    Set* sets;  ///< by cell
+  };
+  struct Near {
+    DiskId disk;
+    std::uint32_t next;
+  };
+
+  std::span<const SafeInterval> found_out(std::size_t cell, double radius,
+                                          const std::vector<MovingDisk>& disks);
+  OfRadius& of_radius(double radius);
+  void cut(Set& set, OpenInterval unsafe);
+  void reserve(Set& set, std::uint32_t capacity);
+  OpenInterval unsafe_at(std::size_t cell, const MovingDisk& disk, double radius) const;
+  template <class Visit>
+  void for_each_cell_near(const MovingDisk& disk, Visit&& visit) const;
+
+  const GridMap& map_;
+  double max_radius_;
+  double time_margin_s_;
+  Arena& arena_;
+  std::array<OfRadius, kMostRadii> by_radius_{};
+  std::size_t used_ = 0;              ///< of by_radius_
+  std::size_t replaced_ = 0;          ///< which of them was given another radius last
+  ArenaVector<std::uint32_t> heads_;  ///< by cell: its list; 0 for none
+  ArenaVector<Near> near_;
+  std::uint32_t free_near_ = 0;
+  ArenaVector<Interval> intervals_;
+  std::array<std::vector<std::uint32_t>, 32> free_;  ///< offsets of rows of 2^i intervals that are free
+};
+
+}  // namespace sipplab
