@@ -12,6 +12,7 @@
 #include "fuzz/support/target.hpp"
 #include "planner/core/tolerances.hpp"
 #include "planner/geometry/collision_interval.hpp"
+#include "planner/geometry/interval_set.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
