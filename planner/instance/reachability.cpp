@@ -173,7 +173,13 @@ std::uint32_t label_at_centre(const std::vector<std::uint32_t>& labels, const Gr
   return labels[y * static_cast<std::size_t>(map.width()) * parts + x];
 }
 
-std::string text_of(Cell cell) { return "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ")"; }
+std::string text_of(Cell cell) {
+  std::string text = "(";
+  text += std::to_string(cell.x);
+  text += ", ";
+  text += std::to_string(cell.y);
+  return text += ')';
+}
 
 }  // namespace
 

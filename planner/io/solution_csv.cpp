@@ -106,9 +106,11 @@ std::string solution_to_csv(const Instance& instance, const SolutionDocument& do
       out += ',';
       append_real(out, motion.end_s);
       for (const std::int32_t number : {motion.from.x, motion.from.y, motion.to.x, motion.to.y}) {
-        out += "," + std::to_string(number);
+        out += ',';
+        out += std::to_string(number);
       }
-      if (with_turns) out += motion.turn_to_deg ? "," + format_real(*motion.turn_to_deg) : ",";
+      if (with_turns) out += ',';
+      if (with_turns && motion.turn_to_deg) append_real(out, *motion.turn_to_deg);
       out += '\n';
     }
   }

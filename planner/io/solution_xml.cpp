@@ -171,7 +171,8 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
   append_summary(out, instance, document);
   out += "\t\t<order>";
   for (std::size_t i = 0; i < document.order.size(); ++i) {
-    out += (i > 0 ? " " : "") + std::to_string(document.order[i]);
+    if (i > 0) out += ' ';
+    out += std::to_string(document.order[i]);
   }
   out += "</order>\n";
   const bool with_headings = has_turns(document.solution);

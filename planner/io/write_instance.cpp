@@ -67,9 +67,12 @@ std::string write_movingai_scen(const Instance& instance, const std::string& map
     out += std::to_string(static_cast<int>(length_cells / kCellsPerBucket)) + "\t" + map_name;
     for (const std::int32_t number : {instance.map.width(), instance.map.height(), agent.start.x,
                                       agent.start.y, agent.goal.x, agent.goal.y}) {
-      out += "\t" + std::to_string(number);
+      out += '\t';
+      out += std::to_string(number);
     }
-    out += "\t" + format_real(length_cells) + "\n";
+    out += '\t';
+    append_real(out, length_cells);
+    out += '\n';
   }
   return out;
 }
