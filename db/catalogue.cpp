@@ -26,7 +26,9 @@ ViewDescription read_view(const std::string& heading, std::istream& lines) {
   for (std::string line; std::getline(lines, line) && line.rfind("|", 0) != 0;) {
     std::string& text = line.rfind(kCode, 0) == 0 ? view.example : description;
     const std::size_t begin = line.find_first_not_of(' ');
-    if (begin != std::string::npos) text += (text.empty() ? "" : " ") + line.substr(begin);
+    if (begin == std::string::npos) continue;
+    if (!text.empty()) text += ' ';
+    text.append(line, begin);
   }
   split_description(description, view);
   return view;
