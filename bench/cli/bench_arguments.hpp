@@ -10,7 +10,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/external/command_planner.hpp"
+#include "bench/sweep/command_planner.hpp"
 
 namespace sipplab::cli {
 

@@ -9,7 +9,7 @@ foreach(file IN LISTS files)
   string(APPEND entries "    {\"${name}\", R\"case(${text})case\"},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Made from bench/adversarial by bench/cmake/embed_cases.cmake.
-#include \"bench/adversarial.hpp\"
+#include \"bench/sweep/adversarial.hpp\"
 
 namespace sipplab::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/adversarial.hpp"
+#include "bench/sweep/adversarial.hpp"
 #include "planner/complete/complete_planner.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "property_tests/support/case_codec.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/suites.hpp"
 #include "bench/sweep/instance_set.hpp"
+#include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep_case.hpp"
 #include "planner/core/expected.hpp"
 

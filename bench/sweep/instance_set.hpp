@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/suites.hpp"
+#include "bench/sweep/suites.hpp"
 #include "db/records.hpp"
 #include "planner/core/expected.hpp"
 #include "planner/instance/instance.hpp"

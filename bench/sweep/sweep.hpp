@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/external/command_planner.hpp"
 #include "bench/sweep/case_outcome.hpp"
+#include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/progress.hpp"
 #include "db/recorder.hpp"

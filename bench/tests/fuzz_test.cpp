@@ -1,12 +1,12 @@
 // What engines and llvm-cov print, as numbers; and the cases of the suite `adversarial`.
 #include <gtest/gtest.h>
 
-#include "bench/adversarial.hpp"
 #include "bench/fuzz/coverage.hpp"
 #include "bench/fuzz/engine_log.hpp"
 #include "bench/fuzz/hardest.hpp"
-#include "bench/suites.hpp"
+#include "bench/sweep/adversarial.hpp"
 #include "bench/sweep/expand.hpp"
+#include "bench/sweep/suites.hpp"
 #include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::bench {

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "bench/suites.hpp"
 #include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/expand.hpp"
@@ -20,6 +19,7 @@
 #include "bench/sweep/instruction_count.hpp"
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "bench/sweep/suites.hpp"
 #include "planner/generator/generator.hpp"
 
 namespace sipplab::bench {

@@ -55,7 +55,7 @@ struct Suite {
   /// point on every machine, so where it strikes first, results are repeatable.
   std::uint64_t max_restarts = UINT64_MAX;
   std::vector<SuiteBlock> blocks;
-  /// The cases of bench/adversarial.hpp, each with its own map, robots and options. Of what
+  /// The cases of bench/sweep/adversarial.hpp, each with its own map, robots and options. Of what
   /// a user replaces, everything but map, robots and count applies.
   bool adversarial_cases = false;
 };

@@ -1,4 +1,4 @@
-#include "bench/external/command_planner.hpp"
+#include "bench/sweep/command_planner.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "bench/suites.hpp"
+#include "bench/sweep/suites.hpp"
 
 namespace sipplab::bench {
 namespace {
