@@ -8,8 +8,8 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/compare/compare.hpp"
-#include "bench/compare/report.hpp"
+#include "bench/judge/compare.hpp"
+#include "bench/judge/report.hpp"
 #include "db/comparisons.hpp"
 #include "planner/io/text_file.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/compare/exact.hpp"
 #include "bench/gate/evidence.hpp"
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/pair.hpp"
+#include "bench/judge/exact.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/gate_runs.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "bench/compare/holm.hpp"
+#include "bench/judge/holm.hpp"
 #include "db/statistics/statistics.hpp"
 #include "planner/core/random.hpp"
 

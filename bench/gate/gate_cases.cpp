@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "bench/compare/case_words.hpp"
-#include "bench/compare/replay_command.hpp"
+#include "bench/judge/case_words.hpp"
+#include "bench/judge/replay_command.hpp"
 #include "planner/io/write_instance.hpp"
 
 namespace sipplab::bench {

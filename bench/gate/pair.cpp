@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "bench/compare/exact.hpp"
+#include "bench/judge/exact.hpp"
 #include "bench/sweep/interrupt.hpp"
 
 namespace sipplab::bench {

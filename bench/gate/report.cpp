@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/junit.hpp"
-#include "bench/compare/text_table.hpp"
+#include "bench/judge/junit.hpp"
+#include "bench/judge/text_table.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,5 +1,5 @@
 // Comparisons of what was recorded: kinds of differences, verdicts, and the words for them.
-#include "bench/compare/compare.hpp"
+#include "bench/judge/compare.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/compare/case_words.hpp"
-#include "bench/compare/holm.hpp"
-#include "bench/compare/junit.hpp"
-#include "bench/compare/replay_command.hpp"
-#include "bench/compare/report.hpp"
-#include "bench/compare/text_table.hpp"
+#include "bench/judge/case_words.hpp"
+#include "bench/judge/holm.hpp"
+#include "bench/judge/junit.hpp"
+#include "bench/judge/replay_command.hpp"
+#include "bench/judge/report.hpp"
+#include "bench/judge/text_table.hpp"
 
 namespace sipplab::bench {
 namespace {

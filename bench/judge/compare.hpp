@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/compare/exact.hpp"
+#include "bench/judge/exact.hpp"
 #include "db/comparisons.hpp"
 
 namespace sipplab::bench {

@@ -1,14 +1,14 @@
-#include "bench/compare/report.hpp"
+#include "bench/judge/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/case_words.hpp"
-#include "bench/compare/junit.hpp"
-#include "bench/compare/replay_command.hpp"
-#include "bench/compare/text_table.hpp"
+#include "bench/judge/case_words.hpp"
+#include "bench/judge/junit.hpp"
+#include "bench/judge/replay_command.hpp"
+#include "bench/judge/text_table.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/compare/case_words.hpp"
+#include "bench/judge/case_words.hpp"
 
 #include <fmt/format.h>
 

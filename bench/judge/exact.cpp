@@ -1,4 +1,4 @@
-#include "bench/compare/exact.hpp"
+#include "bench/judge/exact.hpp"
 
 #include <fmt/format.h>
 

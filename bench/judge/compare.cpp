@@ -1,4 +1,4 @@
-#include "bench/compare/compare.hpp"
+#include "bench/judge/compare.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "bench/compare/holm.hpp"
+#include "bench/judge/holm.hpp"
 #include "db/statistics/statistics.hpp"
 
 namespace sipplab::bench {

@@ -1,4 +1,4 @@
-#include "bench/compare/replay_command.hpp"
+#include "bench/judge/replay_command.hpp"
 
 #include <fmt/format.h>
 

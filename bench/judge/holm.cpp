@@ -1,4 +1,4 @@
-#include "bench/compare/holm.hpp"
+#include "bench/judge/holm.hpp"
 
 #include <algorithm>
 #include <cstddef>

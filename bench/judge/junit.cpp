@@ -1,4 +1,4 @@
-#include "bench/compare/junit.hpp"
+#include "bench/judge/junit.hpp"
 
 #include <fmt/format.h>
 

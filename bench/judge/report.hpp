@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "bench/compare/compare.hpp"
+#include "bench/judge/compare.hpp"
 
 namespace sipplab::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/compare/text_table.hpp"
+#include "bench/judge/text_table.hpp"
 
 #include <fmt/format.h>
 
