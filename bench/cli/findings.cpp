@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/campaigns/campaign.hpp"
+#include "bench/campaigns/target_program.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
-#include "bench/fuzz/campaign.hpp"
-#include "bench/fuzz/target_program.hpp"
 #include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
 #include "db/identity.hpp"

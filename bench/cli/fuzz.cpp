@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/campaigns/campaign.hpp"
+#include "bench/campaigns/coverage.hpp"
+#include "bench/campaigns/hardest.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/fuzz/campaign.hpp"
-#include "bench/fuzz/coverage.hpp"
-#include "bench/fuzz/hardest.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/fuzz_runs.hpp"
 #include "planner/io/text_file.hpp"

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/campaigns/property_log.hpp"
+#include "bench/campaigns/replay.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/property/property_log.hpp"
-#include "bench/property/replay.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/property_runs.hpp"
 #include "planner/io/svg.hpp"

@@ -12,7 +12,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/report/page.hpp"
+#include "bench/present/page.hpp"
 #include "db/database.hpp"
 #include "planner/io/text_file.hpp"
 

@@ -12,7 +12,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/reproduce/paper_report.hpp"
+#include "bench/present/paper_report.hpp"
 #include "bench/sweep/shard.hpp"
 #include "db/database.hpp"
 #include "db/queries.hpp"

@@ -9,7 +9,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/report/trend_text.hpp"
+#include "bench/present/trend_text.hpp"
 #include "db/database.hpp"
 #include "db/trends.hpp"
 #include "planner/io/text.hpp"

@@ -1,9 +1,9 @@
 // What engines and llvm-cov print, as numbers; and the cases of the suite `adversarial`.
 #include <gtest/gtest.h>
 
-#include "bench/fuzz/coverage.hpp"
-#include "bench/fuzz/engine_log.hpp"
-#include "bench/fuzz/hardest.hpp"
+#include "bench/campaigns/coverage.hpp"
+#include "bench/campaigns/engine_log.hpp"
+#include "bench/campaigns/hardest.hpp"
 #include "bench/sweep/adversarial.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/suites.hpp"

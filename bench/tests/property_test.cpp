@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bench/property/property_log.hpp"
-#include "bench/property/replay.hpp"
+#include "bench/campaigns/property_log.hpp"
+#include "bench/campaigns/replay.hpp"
 #include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::bench {

@@ -3,11 +3,11 @@
 
 #include <limits>
 
-#include "bench/report/chart.hpp"
-#include "bench/report/density.hpp"
-#include "bench/report/numbers.hpp"
-#include "bench/report/runtime_chart.hpp"
-#include "bench/report/trend_text.hpp"
+#include "bench/present/chart.hpp"
+#include "bench/present/density.hpp"
+#include "bench/present/numbers.hpp"
+#include "bench/present/runtime_chart.hpp"
+#include "bench/present/trend_text.hpp"
 
 namespace sipplab::bench {
 namespace {

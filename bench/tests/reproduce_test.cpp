@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/reproduce/paper_report.hpp"
+#include "bench/present/paper_report.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,12 +1,12 @@
 // Density curves of a run.
-#include "bench/report/density.hpp"
+#include "bench/present/density.hpp"
 
 #include <fmt/core.h>
 
 #include <map>
 #include <set>
 
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 #include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {

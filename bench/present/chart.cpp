@@ -1,5 +1,5 @@
 // Line charts as SVG: scale, axes, lines, legend.
-#include "bench/report/chart.hpp"
+#include "bench/present/chart.hpp"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/reproduce/paper.hpp"
+#include "bench/present/paper.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 #include "db/queries.hpp"
 
 namespace sipplab::bench {
@@ -19,7 +19,7 @@ constexpr const char* kPaperMaps = "run = :run AND map_spec IN ('files', 'empty:
 
 /// Sums over instances, each with its number of runs, of solved runs, and their costs added up: seeds of
 /// random re-scheduling that never had to re-schedule are one observation, not ten.
-std::string cells_sql() {
+std::string paper_cells_sql() {
   return fmt::format(
       "WITH instance AS ("
       "  SELECT CASE WHEN instr(environment, '/') > 0 THEN substr(environment, instr(environment, '/') + 1)"
@@ -326,7 +326,7 @@ db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path
                                                      const std::string& run) {
   const auto method = method_of(database, run);
   if (!method) return Unexpected{method.error()};
-  const auto table = db::run_sql(database, cells_sql(), {{"run", run}, {"method", *method}});
+  const auto table = db::run_sql(database, paper_cells_sql(), {{"run", run}, {"method", *method}});
   if (!table) return Unexpected{table.error()};
   std::vector<MeasuredCell> cells;
   for (const auto& row : table->rows) {

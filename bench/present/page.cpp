@@ -1,13 +1,13 @@
 // The report as one HTML page.
-#include "bench/report/page.hpp"
+#include "bench/present/page.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
 
-#include "bench/report/numbers.hpp"
-#include "bench/report/style.hpp"
-#include "bench/report/trend_text.hpp"
+#include "bench/present/numbers.hpp"
+#include "bench/present/style.hpp"
+#include "bench/present/trend_text.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/fuzz/engine_log.hpp"
+#include "bench/campaigns/engine_log.hpp"
 
 #include <algorithm>
 #include <charconv>

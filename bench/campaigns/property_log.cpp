@@ -1,6 +1,6 @@
 // Lines of JSON to plain rows; everything that the history would refuse is refused
 // here, with the number of its line.
-#include "bench/property/property_log.hpp"
+#include "bench/campaigns/property_log.hpp"
 
 #include <fmt/format.h>
 

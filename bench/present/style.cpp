@@ -1,8 +1,8 @@
-#include "bench/report/style.hpp"
+#include "bench/present/style.hpp"
 
 #include <fmt/core.h>
 
-#include "bench/report/chart.hpp"
+#include "bench/present/chart.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/reproduce/paper_report.hpp"
+#include "bench/present/paper_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "bench/report/numbers.hpp"
-#include "bench/report/style.hpp"
+#include "bench/present/numbers.hpp"
+#include "bench/present/style.hpp"
 #include "db/aligned.hpp"
 #include "property_tests/support/rate.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/report/chart.hpp"
+#include "bench/present/chart.hpp"
 #include "db/trends.hpp"
 
 namespace sipplab::bench {

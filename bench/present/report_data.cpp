@@ -1,5 +1,5 @@
 // The questions behind the report.
-#include "bench/report/report_data.hpp"
+#include "bench/present/report_data.hpp"
 
 #include <algorithm>
 #include <set>

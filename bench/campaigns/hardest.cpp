@@ -1,4 +1,4 @@
-#include "bench/fuzz/hardest.hpp"
+#include "bench/campaigns/hardest.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "bench/fuzz/coverage.hpp"
+#include "bench/campaigns/coverage.hpp"
 
 #include <nlohmann/json.hpp>
 

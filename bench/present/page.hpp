@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/report/density.hpp"
-#include "bench/report/report_data.hpp"
+#include "bench/present/density.hpp"
+#include "bench/present/report_data.hpp"
 
 namespace sipplab::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/fuzz/target_program.hpp"
+#include "bench/campaigns/target_program.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/campaigns/replay.hpp"
 #include "bench/program.hpp"
-#include "bench/property/replay.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
 #include "property_tests/support/case_codec.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/report/chart.hpp"
+#include "bench/present/chart.hpp"
 #include "db/queries.hpp"
 
 namespace sipplab::bench {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/report/chart.hpp"
-#include "bench/reproduce/paper.hpp"
+#include "bench/present/chart.hpp"
+#include "bench/present/paper.hpp"
 
 namespace sipplab::bench {
 

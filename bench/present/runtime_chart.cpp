@@ -1,4 +1,4 @@
-#include "bench/report/runtime_chart.hpp"
+#include "bench/present/runtime_chart.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 #include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {

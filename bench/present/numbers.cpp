@@ -1,5 +1,5 @@
 // Numbers for people.
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 
 #include <fmt/core.h>
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bench/report/chart.hpp"
+#include "bench/present/chart.hpp"
 #include "db/queries.hpp"
 #include "db/trends.hpp"
 

@@ -1,5 +1,5 @@
 // Trends as text with sparklines, as JSON and as a chart.
-#include "bench/report/trend_text.hpp"
+#include "bench/present/trend_text.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-#include "bench/report/numbers.hpp"
+#include "bench/present/numbers.hpp"
 #include "db/aligned.hpp"
 
 namespace sipplab::bench {

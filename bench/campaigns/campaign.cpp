@@ -1,4 +1,4 @@
-#include "bench/fuzz/campaign.hpp"
+#include "bench/campaigns/campaign.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
-#include "bench/fuzz/engine_log.hpp"
-#include "bench/fuzz/target_program.hpp"
+#include "bench/campaigns/engine_log.hpp"
+#include "bench/campaigns/target_program.hpp"
 #include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"

@@ -1,5 +1,5 @@
 // Counterexamples again; see replay.hpp.
-#include "bench/property/replay.hpp"
+#include "bench/campaigns/replay.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>
