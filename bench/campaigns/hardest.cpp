@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "planner/io/case_codec.hpp"
 #include "planner/io/text_file.hpp"
-#include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::bench {
 namespace {

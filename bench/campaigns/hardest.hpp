@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/io/plan_case.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
-#include "property_tests/support/plan_case.hpp"
 
 namespace sipplab::bench {
 

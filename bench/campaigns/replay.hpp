@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "planner/io/plan_case.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
-#include "property_tests/support/plan_case.hpp"
 
 namespace sipplab::bench {
 

@@ -9,9 +9,9 @@
 
 #include "bench/campaigns/replay.hpp"
 #include "bench/program.hpp"
+#include "planner/io/case_codec.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::bench {
 namespace {

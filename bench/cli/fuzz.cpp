@@ -18,8 +18,8 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/fuzz_runs.hpp"
+#include "planner/io/case_codec.hpp"
 #include "planner/io/text_file.hpp"
-#include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::cli {
 namespace {

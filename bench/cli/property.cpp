@@ -17,10 +17,10 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/property_runs.hpp"
+#include "planner/io/case_codec.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
 #include "planner/io/write_instance.hpp"
-#include "property_tests/support/case_codec.hpp"
 
 namespace sipplab::cli {
 namespace {

@@ -9,7 +9,7 @@ namespace sipplab::bench {
 
 struct AdversarialCase {
   std::string_view name;  ///< "01"
-  std::string_view text;  ///< as property_tests/support/case_codec.hpp reads it
+  std::string_view text;  ///< as planner/io/case_codec.hpp reads it
 };
 
 std::span<const AdversarialCase> adversarial_cases();

@@ -9,7 +9,7 @@
 #include "bench/sweep/adversarial.hpp"
 #include "planner/complete/complete_planner.hpp"
 #include "planner/grid/neighbourhood.hpp"
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "bench/sweep/adversarial.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/suites.hpp"
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 
 namespace sipplab::bench {
 namespace {

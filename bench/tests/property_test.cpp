@@ -5,7 +5,7 @@
 
 #include "bench/campaigns/property_log.hpp"
 #include "bench/campaigns/replay.hpp"
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 
 namespace sipplab::bench {
 namespace {

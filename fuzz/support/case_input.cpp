@@ -5,7 +5,7 @@
 
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/case_mutator.hpp"
 
 namespace sipplab::fuzz {

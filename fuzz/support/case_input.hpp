@@ -1,4 +1,4 @@
-// Inputs of targets that plan: the text of a case (property_tests/support/case_codec.hpp).
+// Inputs of targets that plan: the text of a case (planner/io/case_codec.hpp).
 // case_mutator_hooks.cpp gives such a target its mutator.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab::fuzz {
 

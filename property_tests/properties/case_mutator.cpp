@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 

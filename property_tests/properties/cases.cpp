@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/case_shrinker.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "planner/core/random.hpp"
+#include "planner/io/plan_case.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
-#include "property_tests/support/plan_case.hpp"
 
 namespace sipplab {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/core/random.hpp"
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab {
 

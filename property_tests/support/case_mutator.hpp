@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "planner/core/random.hpp"
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab {
 

@@ -4,7 +4,7 @@
 // first one first, so that nothing more can be reached by that, unless a closed ring turns.
 #pragma once
 
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <set>
 
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/property_log.hpp"
 
 // Set for this file alone by property_tests/CMakeLists.txt.

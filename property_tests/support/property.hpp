@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 // Set for each program by property_tests/CMakeLists.txt.
 #ifndef SIPPLAB_PROPERTY_ROOM

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/case_shrinker.hpp"
 
 namespace sipplab {

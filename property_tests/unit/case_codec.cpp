@@ -1,5 +1,5 @@
 // Cases as text.
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "planner/core/random.hpp"
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/extremes.hpp"
 
 namespace sipplab {

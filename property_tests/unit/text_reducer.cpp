@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 #include "property_tests/support/case_maker.hpp"
 
 namespace sipplab {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "planner/io/case_codec.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/validator/validator.hpp"
-#include "property_tests/support/case_codec.hpp"
 
 namespace sipplab {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "planner/core/tolerances.hpp"
+#include "planner/io/case_codec.hpp"
 #include "planner/validator/validator.hpp"
-#include "property_tests/support/case_codec.hpp"
 #include "property_tests/support/extremes.hpp"
 
 namespace sipplab {

@@ -30,7 +30,7 @@
 #include <string>
 #include <string_view>
 
-#include "property_tests/support/plan_case.hpp"
+#include "planner/io/plan_case.hpp"
 
 namespace sipplab {
 

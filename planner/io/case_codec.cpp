@@ -1,5 +1,5 @@
 // Cases as text and back; see case_codec.hpp.
-#include "property_tests/support/case_codec.hpp"
+#include "planner/io/case_codec.hpp"
 
 #include <algorithm>
 #include <charconv>
