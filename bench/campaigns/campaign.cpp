@@ -8,12 +8,12 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/campaigns/counts.hpp"
 #include "bench/campaigns/engine_log.hpp"
 #include "bench/campaigns/target_program.hpp"
 #include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"
-#include "fuzz/support/claims.hpp"
 #include "planner/io/text_file.hpp"
 
 namespace sipplab::bench {
@@ -157,11 +157,9 @@ class TargetRun {
   void read_log() {
     EngineLog log_read = parse_engine_log(bytes_or_none(log()));
     for (const fuzz::Count& count : fuzz::read_counts(counts().string())) {
-      run_.counts.push_back(
-          {std::string(count.kind), std::string(count.name), static_cast<std::int64_t>(count.count)});
+      run_.counts.push_back({count.kind, count.name, static_cast<std::int64_t>(count.count)});
       // Counted by the target itself: right in fork mode and after a crash as well.
-      if (count.name == fuzz::name(fuzz::Event::kInputs))
-        run_.executions = static_cast<std::int64_t>(count.count);
+      if (count.name == "inputs") run_.executions = static_cast<std::int64_t>(count.count);
     }
     run_.edges = log_read.last.edges;
     run_.features = log_read.last.features;

@@ -10,7 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+
+#include "bench/campaigns/counts.hpp"
 
 namespace sipplab::fuzz {
 namespace {
@@ -35,28 +36,38 @@ constexpr std::array<std::string_view, kEvents> kEventNames = {
     "starts protected", "obstacles", "mixed bodies", "comparisons",
 };
 constexpr std::size_t kCounts = kClaims + kEvents;
+static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free);
 
-using Counters = std::atomic<std::uint64_t>;
-static_assert(sizeof(Counters) == sizeof(std::uint64_t) && Counters::is_always_lock_free);
-
-/// Numbers in the file of the environment variable, or in memory that nobody reads.
-Counters* map_counters() {
-  static std::array<Counters, kCounts> own{};
+/// Rows of the file of the environment variable, or in memory that nobody reads.
+CountRow* map_rows() {
+  static std::array<CountRow, kCounts> own{};
   const char* path = std::getenv(kCountsVariable);
   if (path == nullptr || *path == '\0') return own.data();
   const int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file < 0) return own.data();
   void* mapped = MAP_FAILED;
-  if (ftruncate(file, static_cast<off_t>(kCounts * sizeof(Counters))) == 0) {
-    mapped = mmap(nullptr, kCounts * sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (ftruncate(file, static_cast<off_t>(sizeof own)) == 0) {
+    mapped = mmap(nullptr, sizeof own, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   }
   close(file);
-  return mapped == MAP_FAILED ? own.data() : static_cast<Counters*>(mapped);
+  return mapped == MAP_FAILED ? own.data() : static_cast<CountRow*>(mapped);
+}
+
+/// Every process of a run writes the same names.
+CountRow* named_rows() {
+  CountRow* const rows = map_rows();
+  for (std::size_t i = 0; i < kCounts; ++i) {
+    const bool is_claim = i < kClaims;
+    const std::string_view text = is_claim ? kClaimNames[i] : kEventNames[i - kClaims];
+    std::strcpy(rows[i].kind.data(), is_claim ? "claim" : "event");
+    text.copy(rows[i].name.data(), rows[i].name.size() - 1);
+  }
+  return rows;
 }
 
 void add_one(std::size_t index) {
-  static Counters* const counters = map_counters();
-  counters[index].fetch_add(1, std::memory_order_relaxed);
+  static CountRow* const rows = named_rows();
+  std::atomic_ref(rows[index].count).fetch_add(1, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -75,20 +86,6 @@ void require(Claim claim, bool condition, const char* detail) {
 
 void require(Claim claim, bool condition, const std::string& detail) {
   require(claim, condition, detail.c_str());
-}
-
-std::vector<Count> read_counts(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<Count> counts;
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < kCounts; ++i) {
-    if (!file.read(reinterpret_cast<char*>(&value), sizeof value)) return {};
-    if (value == 0) continue;
-    const bool is_claim = i < kClaims;
-    counts.push_back(
-        {is_claim ? "claim" : "event", is_claim ? kClaimNames[i] : kEventNames[i - kClaims], value});
-  }
-  return counts;
 }
 
 }  // namespace sipplab::fuzz

@@ -1,12 +1,12 @@
 // What the targets claim, and what their inputs came to. Each check is counted, so that a
-// record shows whether a claim was put to the test at all.
+// record shows whether a claim was put to the test at all. Counts go to the file of bench/campaigns/counts.hpp that the
+// environment names, if any.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace sipplab::fuzz {
 
@@ -68,20 +68,5 @@ void count(Event event);
 /// aborts.
 void require(Claim claim, bool condition, const char* detail);
 void require(Claim claim, bool condition, const std::string& detail);
-
-/// A count by name, such as {"event", "inputs", 12}.
-struct Count {
-  std::string_view kind;
-  std::string_view name;
-  std::uint64_t count = 0;
-};
-
-/// Counts are kept in the file that this environment variable names, if any: it is mapped
-/// into memory, so that all processes of a run add to the same numbers and a crash loses
-/// none. Its content is one unsigned 64-bit number for each claim, then each event.
-inline constexpr const char* kCountsVariable = "SIPPLAB_FUZZ_COUNTS";
-
-/// The counts of such a file, those that are 0 left out; empty where it is none.
-std::vector<Count> read_counts(const std::string& path);
 
 }  // namespace sipplab::fuzz

@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "bench/campaigns/counts.hpp"
+
 namespace sipplab::fuzz {
 namespace {
 
@@ -55,6 +57,7 @@ TEST(Claims, every_one_has_a_name_of_its_own) {
   for (std::size_t i = 0; i < kEvents; ++i) names.insert(name(static_cast<Event>(i)));
   EXPECT_EQ(names.size(), kClaims + kEvents);
   EXPECT_EQ(names.count(""), 0U);
+  for (const std::string_view name : names) EXPECT_LT(name.size(), CountRow{}.name.size()) << name;
   EXPECT_EQ(name(Claim::kTwinsAgree), "twins agree");
   EXPECT_EQ(name(Claim::kCompleteIsComplete), "complete is complete");
   EXPECT_EQ(name(Event::kComparisons), "comparisons");
