@@ -291,7 +291,7 @@ Standing cost_standing(const std::optional<double>& measured, double error,
 }
 
 Standing success_standing(const MeasuredCell& cell, double paper) {
-  const ConfidenceInterval interval = cell.success_interval();
+  const db::statistics::ConfidenceInterval interval = cell.success_interval();
   if (interval.low <= paper && paper <= interval.high) return Standing::kReproduced;
   return cell.success() > paper ? Standing::kBetter : Standing::kDiffers;
 }
@@ -317,9 +317,9 @@ db::Result<std::string> method_of(const std::filesystem::path& database, const s
 
 }  // namespace
 
-ConfidenceInterval MeasuredCell::success_interval() const {
+db::statistics::ConfidenceInterval MeasuredCell::success_interval() const {
   const double of = independent_runs.value_or(static_cast<double>(runs));
-  return wilson_interval(success() * of, of);
+  return db::statistics::wilson_interval(success() * of, of);
 }
 
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "db/error.hpp"
-#include "property_tests/support/rate.hpp"
+#include "db/statistics/statistics.hpp"
 
 namespace sipplab::bench {
 
@@ -42,7 +42,7 @@ struct MeasuredCell {
 
   double success() const { return runs == 0 ? 0 : static_cast<double>(solved) / static_cast<double>(runs); }
   /// 95 %, Wilson's.
-  ConfidenceInterval success_interval() const;
+  db::statistics::ConfidenceInterval success_interval() const;
 };
 
 /// Of fewer instances a variance says next to nothing: no cost is judged, and no claim by them.

@@ -10,7 +10,6 @@
 #include "bench/present/numbers.hpp"
 #include "bench/present/style.hpp"
 #include "db/aligned.hpp"
-#include "property_tests/support/rate.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -30,7 +29,7 @@ std::string cost_words(const std::optional<double>& measured, double error,
 }
 
 std::string success_words(const TableLine& line) {
-  const ConfidenceInterval interval = line.measured->success_interval();
+  const db::statistics::ConfidenceInterval interval = line.measured->success_interval();
   return fmt::format("{:.3f} [{:.3f}, {:.3f}] ({:.2f}) {}", line.measured->success(), interval.low,
                      interval.high, line.paper.success, name(line.success));
 }
@@ -137,7 +136,7 @@ nlohmann::ordered_json reproduction_json(const std::vector<MeasuredCell>& cells,
     return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
   };
   const auto measured = [&number](const MeasuredCell& cell) {
-    const ConfidenceInterval interval = cell.success_interval();
+    const db::statistics::ConfidenceInterval interval = cell.success_interval();
     const bool some = cell.solved > 0;
     return Json{{"environment", cell.environment},
                 {"robots", cell.robots},

@@ -138,6 +138,17 @@ std::optional<double> wilcoxon(const std::vector<double>& differences) {
                                              : normal_wilcoxon(ranked, doubled_smaller);
 }
 
+ConfidenceInterval wilson_interval(double held, double of) {
+  if (of == 0) return {};
+  constexpr double kNormalQuantile = 1.959963984540054;  // 95 %, two-sided
+  const double rate = held / of;
+  const double weight = kNormalQuantile * kNormalQuantile / of;
+  const double middle = (rate + weight / 2) / (1 + weight);
+  const double half = kNormalQuantile * std::sqrt(rate * (1 - rate) / of + weight / (4 * of)) / (1 + weight);
+  // Exact at the ends, where rounding leaves a trace.
+  return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
+}
+
 std::optional<double> par2(const std::vector<TimedResult>& results) {
   if (results.empty()) return std::nullopt;
   double sum = 0;

@@ -37,6 +37,17 @@ inline constexpr std::size_t kExactWilcoxonLimit = 100;
 /// REQUIRES: no NaN.
 std::optional<double> wilcoxon(const std::vector<double>& differences);
 
+struct ConfidenceInterval {
+  double low = 0;
+  double high = 1;
+};
+
+/// Where the true rate lies with a confidence of 95 %, by Wilson's score interval
+/// (Wilson 1927, doi:10.1080/01621459.1927.10502953): good for few cases and for rates near 0
+/// and 1, too. All of [0, 1] if `of` is 0. Cases that depend on each other count as fewer: both numbers
+/// need not be whole then. REQUIRES: 0 <= held <= of.
+ConfidenceInterval wilson_interval(double held, double of);
+
 /// One planning under a limit.
 struct TimedResult {
   bool solved = false;

@@ -40,6 +40,26 @@ TEST(Statistics, geometric_mean) {
   EXPECT_FALSE(geometric_mean({1, -2}));
 }
 
+TEST(Statistics, wilson_intervals_are_those_of_the_literature) {
+  // Newcombe (1998), "Two-sided confidence intervals for the single proportion", table I, method 3.
+  struct Known {
+    double held, of, low, high;
+  };
+  for (const Known& known : {Known{81, 263, 0.2553, 0.3662}, Known{15, 148, 0.0624, 0.1605},
+                             Known{0, 20, 0.0000, 0.1611}, Known{1, 29, 0.0061, 0.1718}}) {
+    const ConfidenceInterval interval = wilson_interval(known.held, known.of);
+    EXPECT_NEAR(interval.low, known.low, 5e-5) << known.held;
+    EXPECT_NEAR(interval.high, known.high, 5e-5) << known.held;
+  }
+}
+
+TEST(Statistics, wilson_intervals_reach_the_ends_exactly) {
+  EXPECT_EQ(wilson_interval(0, 7).low, 0);
+  EXPECT_EQ(wilson_interval(7, 7).high, 1);
+  EXPECT_EQ(wilson_interval(0, 0).low, 0);
+  EXPECT_EQ(wilson_interval(0, 0).high, 1);
+}
+
 TEST(Statistics, sign_test) {
   EXPECT_FALSE(sign_test(0, 0));
   EXPECT_EQ(sign_test(1, 0), 1);

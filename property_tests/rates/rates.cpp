@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "planner/io/text.hpp"
+#include "property_tests/rates/rate.hpp"
 #include "property_tests/rates/relations.hpp"
 #include "property_tests/support/case_maker.hpp"
 #include "property_tests/support/property_log.hpp"
-#include "property_tests/support/rate.hpp"
 
 namespace sipplab {
 namespace {
@@ -94,8 +94,7 @@ std::string log_line(const Measured& measured, const Budget& budget) {
   if (rate.held > 0) record.classes["held"] = rate.held;
   if (rate.broken > 0) record.classes["broken"] = rate.broken;
   std::string line = to_json_line(record);
-  const ConfidenceInterval interval =
-      wilson_interval(static_cast<double>(rate.held), static_cast<double>(rate.applicable()));
+  const db::statistics::ConfidenceInterval interval = rate.interval();
   const std::string value = rate.value() ? format_real(*rate.value()) : "null";
   const std::string more = R"(,"kind":"rate","held":)" + std::to_string(rate.held) + R"(,"rate":)" + value +
                            R"(,"rate_low":)" + format_real(interval.low) + R"(,"rate_high":)" +

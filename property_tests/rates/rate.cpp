@@ -1,16 +1,12 @@
 // Counts and confidence; see rate.hpp.
-#include "property_tests/support/rate.hpp"
+#include "property_tests/rates/rate.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 namespace sipplab {
 namespace {
 
-/// The two-sided 95 % quantile of the normal distribution.
-constexpr double kNormalQuantile = 1.959963984540054;
 /// Room for the longest sentence.
 constexpr int kTitleColumns = 68;
 
@@ -23,14 +19,8 @@ std::optional<double> Rate::value() const {
   return static_cast<double>(held) / static_cast<double>(applicable());
 }
 
-ConfidenceInterval wilson_interval(double held, double of) {
-  if (of == 0) return {};
-  const double rate = held / of;
-  const double weight = kNormalQuantile * kNormalQuantile / of;
-  const double middle = (rate + weight / 2) / (1 + weight);
-  const double half = kNormalQuantile * std::sqrt(rate * (1 - rate) / of + weight / (4 * of)) / (1 + weight);
-  // Exact at the ends, where rounding leaves a trace.
-  return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
+db::statistics::ConfidenceInterval Rate::interval() const {
+  return db::statistics::wilson_interval(static_cast<double>(held), static_cast<double>(applicable()));
 }
 
 std::string rate_table_heading() {
@@ -41,8 +31,7 @@ std::string rate_table_heading() {
 }
 
 std::string rate_table_row(const Rate& rate) {
-  const ConfidenceInterval interval =
-      wilson_interval(static_cast<double>(rate.held), static_cast<double>(rate.applicable()));
+  const db::statistics::ConfidenceInterval interval = rate.interval();
   std::array<char, 16> value{"-"};
   if (rate.value()) std::snprintf(value.data(), value.size(), "%.4f", *rate.value());
   std::array<char, 256> line{};
