@@ -10,8 +10,6 @@
 #include <system_error>
 #include <vector>
 
-#include "property_tests/support/property_log.hpp"
-
 namespace sipplab::bench {
 namespace {
 

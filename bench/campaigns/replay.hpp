@@ -27,6 +27,9 @@ struct CaseVerdict {
 /// rule of instances does not.
 CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner);
 
+/// Exit code of a program that has none of the properties that it is to reproduce.
+inline constexpr int kNoSuchProperty = 3;
+
 /// The shell command that tries a counterexample again.
 std::string replay_command(const std::filesystem::path& program, const std::string& reproduce);
 

@@ -51,6 +51,11 @@ done < <(sed -nE 's,/[^/]*\.(cpp|hpp|py)$,,p' <<<"$files" | sort -u)
 # Folder of a file, folder of what it includes, file.
 includes=$(git grep -E '^#include "[^"]+/[^"]+"' -- '*.cpp' '*.hpp' | sed -E 's/:#include "/ /; s/"$//' |
   awk '{ from = $1; to = $2; sub("/[^/]*$", "", from); sub("/[^/]*$", "", to); print from, to, $1 }' | sort -u)
+# Whatever the tables say: the program and the libraries contain no test code.
+while read -r _ to file; do
+  case "$file" in bench/tests/* | db/tests/*) continue ;; esac
+  case "$to" in property_tests/* | fuzz | fuzz/* | bench/tests | db/tests) complain "$file includes $to, which is test code" ;; esac
+done < <(grep -E '^(planner|db|bench)/' <<<"$includes")
 # The tables whose last column is called `includes`: a folder, below `prefix`, includes itself and what stands there,
 # which is a folder below `prefix` or one from the root with all that is in it; `all` stands for everything.
 check_table() { # FILE PREFIX

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "bench/campaigns/replay.hpp"
 #include "planner/io/case_codec.hpp"
 #include "property_tests/support/property_log.hpp"
 
@@ -193,7 +194,7 @@ bool met_reproduced = false;
 void end_where_none_was_met() {
   if (met_reproduced) return;
   std::cerr << "no property of this program is the one that is to be reproduced\n";
-  std::_Exit(kNoSuchProperty);
+  std::_Exit(bench::kNoSuchProperty);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ bool run_property(const std::string& room, int cases, const std::string& title,
 ///
 /// With "reproduce=..." in RC_PARAMS, only the counterexamples that it holds are tried:
 /// nothing is drawn or logged, and properties that it does not name hold. A program that has
-/// none of those that are named ends with kNoSuchProperty.
+/// none of those that are named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
 template <class Testable>
 bool property(const std::string& title, Testable&& testable) {
   return run_property(SIPPLAB_PROPERTY_ROOM, SIPPLAB_PROPERTY_CASES, title,

@@ -11,9 +11,6 @@
 
 namespace sipplab {
 
-/// Exit code of a program that has none of the properties that it is to reproduce.
-inline constexpr int kNoSuchProperty = 3;
-
 /// Names of members are the keys of the JSON object.
 struct PropertyRecord {
   std::string uuid;  ///< a line that is recorded twice is stored once
