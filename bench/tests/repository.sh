@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What is in the repository, and no more: nothing new at the top level, Markdown files with titles and
 # with links that lead somewhere, a short README in each folder with code, and includes as the tables of
-# the READMEs allow them. Prints one line for each thing that is not as it should be.
+# the READMEs allow them, without circles between folders. Prints one line for each thing that is not as it should be.
 #
 #   repository.sh FOLDER
 set -uo pipefail
@@ -97,6 +97,11 @@ while read -r line; do complain "$line"; done < <(
   check_table planner/README.md planner/
   check_table bench/README.md bench/
 )
+
+# Folders that include each other, however far round. What db/sqlite reports are errors of db.
+circle=$(awk '$1 != $2 && $1 " " $2 != "db/sqlite db" { print $1, $2 }' <<<"$includes" | tsort 2>&1 >/dev/null |
+  sed -n '/input contains/!s/^tsort: //p' | tr '\n' ' ')
+[ -z "$circle" ] || complain "folders include each other in a circle: $circle"
 
 [ "$broken" -eq 0 ] && echo 'repository: everything in its place'
 exit "$broken"

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/instance/digest.hpp"
 #include "planner/instance/disk_lookup.hpp"
+#include "planner/solution/digest.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "planner/instance/digest.hpp"
+#include "planner/solution/digest.hpp"
 
 namespace sipplab {
 

@@ -1,5 +1,5 @@
 // Names for contents; see digest.hpp.
-#include "planner/instance/digest.hpp"
+#include "planner/solution/digest.hpp"
 
 #include <xxhash.h>
 
