@@ -43,18 +43,6 @@ double real(const db::Value& value) {
   return number == nullptr ? 0 : *number;
 }
 
-/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960), to the fourth order; within
-/// 0.04 % from four degrees of freedom on.
-double t_quantile(double freedom) {
-  constexpr double z = 1.959964;
-  constexpr double z2 = z * z;
-  constexpr double first = z * (z2 + 1) / 4;
-  constexpr double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
-  constexpr double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
-  constexpr double fourth = z * ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
-  return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
-}
-
 /// A share of two sums over instances, such as cost over solved runs: sums of both, of their squares and of
 /// their product.
 struct RatioOfSums {
@@ -78,7 +66,7 @@ struct RatioOfSums {
 /// Half the width of a 95 % interval.
 double error_of(const RatioOfSums& ratio) {
   if (ratio.instances < kFewestInstances) return std::numeric_limits<double>::infinity();
-  return t_quantile(static_cast<double>(ratio.instances - 1)) * std::sqrt(ratio.variance());
+  return db::statistics::t_quantile(static_cast<double>(ratio.instances - 1)) * std::sqrt(ratio.variance());
 }
 
 /// Between the number of instances and that of runs.

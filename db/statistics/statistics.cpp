@@ -149,6 +149,16 @@ ConfidenceInterval wilson_interval(double held, double of) {
   return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
 }
 
+double t_quantile(double freedom) {
+  constexpr double z = 1.959964;
+  constexpr double z2 = z * z;
+  constexpr double first = z * (z2 + 1) / 4;
+  constexpr double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
+  constexpr double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
+  constexpr double fourth = z * ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
+}
+
 std::optional<double> par2(const std::vector<TimedResult>& results) {
   if (results.empty()) return std::nullopt;
   double sum = 0;

@@ -48,6 +48,10 @@ struct ConfidenceInterval {
 /// need not be whole then. REQUIRES: 0 <= held <= of.
 ConfidenceInterval wilson_interval(double held, double of);
 
+/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960), to the fourth order; within
+/// 0.04 % from four degrees of freedom on. REQUIRES: freedom > 0.
+double t_quantile(double freedom);
+
 /// One planning under a limit.
 struct TimedResult {
   bool solved = false;

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <cmath>
+#include <utility>
 
 #include "db/queries.hpp"
 #include "db/tests/support.hpp"
@@ -175,6 +176,13 @@ TEST(Extension, loads_into_a_plain_connection) {
             SQLITE_OK)
       << sqlite3_errmsg(connection);
   sqlite3_close(connection);
+}
+
+TEST(Statistics, t_quantiles_are_those_of_the_tables) {
+  const std::pair<double, double> table[] = {{4, 2.776445}, {5, 2.570582}, {9, 2.262157}, {59, 2.000995}};
+  for (const auto& [freedom, quantile] : table) {
+    EXPECT_NEAR(t_quantile(freedom), quantile, 0.0004 * quantile) << freedom;
+  }
 }
 
 }  // namespace
