@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/present/named_row.hpp"
 #include "bench/present/numbers.hpp"
 #include "db/queries.hpp"
 
@@ -28,19 +29,16 @@ std::string paper_cells_sql() {
       "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
       "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
       "  FROM v_results WHERE {} AND {} = :method GROUP BY 1, 2, 3, 4, 5, 6) "
-      "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs), sum(solved),"
-      "  sum(seconds) / sum(runs), sum(makespan_s), sum(flowtime_s),"
-      "  count(*), sum(runs * runs), sum(runs * solved), sum(solved * solved), sum(solved > 0),"
-      "  sum(makespan_s * solved), sum(makespan_s * makespan_s),"
-      "  sum(flowtime_s * solved), sum(flowtime_s * flowtime_s) "
+      "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs) AS runs, sum(solved) AS "
+      "solved,"
+      "  sum(seconds) / sum(runs) AS mean_seconds, count(*) AS instances, sum(solved > 0) AS with_plan,"
+      "  sum(runs * runs) AS runs_squares, sum(runs * solved) AS runs_solved,"
+      "  sum(solved * solved) AS solved_squares, sum(makespan_s) AS makespan,"
+      "  sum(makespan_s * solved) AS makespan_solved, sum(makespan_s * makespan_s) AS makespan_squares,"
+      "  sum(flowtime_s) AS flowtime, sum(flowtime_s * solved) AS flowtime_solved,"
+      "  sum(flowtime_s * flowtime_s) AS flowtime_squares "
       "FROM instance GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 4, 5, 3, 2",
       kPaperMaps, db::kPlannerNameSql);
-}
-
-double real(const db::Value& value) {
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
-  const auto* number = std::get_if<double>(&value);
-  return number == nullptr ? 0 : *number;
 }
 
 /// A share of two sums over instances, such as cost over solved runs: sums of both, of their squares and of
@@ -286,14 +284,15 @@ Standing success_standing(const MeasuredCell& cell, double paper) {
 
 /// How the planner of the run is called; of several, the paper's.
 db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
-  const auto table = db::run_sql(
-      database,
-      fmt::format("SELECT DISTINCT {} FROM v_results WHERE {} ORDER BY 1", db::kPlannerNameSql, kPaperMaps),
-      {{"run", run}});
+  const auto table =
+      db::run_sql(database,
+                  fmt::format("SELECT DISTINCT {} AS method FROM v_results WHERE {} ORDER BY 1",
+                              db::kPlannerNameSql, kPaperMaps),
+                  {{"run", run}});
   if (!table) return Unexpected{table.error()};
   std::string names;
   for (const auto& row : table->rows) {
-    const std::string name = std::get<std::string>(row[0]);
+    const std::string name = NamedRow(*table, row).text("method");
     if (table->rows.size() == 1 || name == kPaperMethod) return name;
     names += (names.empty() ? "" : ", ") + name;
   }
@@ -317,31 +316,31 @@ db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path
   const auto table = db::run_sql(database, paper_cells_sql(), {{"run", run}, {"method", *method}});
   if (!table) return Unexpected{table.error()};
   std::vector<MeasuredCell> cells;
-  for (const auto& row : table->rows) {
+  for (const auto& values : table->rows) {
+    const NamedRow row(*table, values);
     MeasuredCell cell;
-    cell.environment = std::get<std::string>(row[0]);
+    cell.environment = row.text("environment");
     if (cell.environment != "empty" && cell.environment != "warehouse") continue;
     cell.method = *method;
-    cell.robots = std::get<std::int64_t>(row[1]);
-    cell.ssi_s = real(row[2]);
-    cell.reschedule = std::get<std::string>(row[3]);
-    cell.order = std::get<std::string>(row[4]);
-    cell.runs = std::get<std::int64_t>(row[5]);
-    cell.solved = std::get<std::int64_t>(row[6]);
-    cell.mean_seconds = real(row[7]);
-    const auto runs = static_cast<double>(cell.runs);
-    const auto solved = static_cast<double>(cell.solved);
-    const std::int64_t instances = std::get<std::int64_t>(row[10]);
-    cell.instances = instances;
-    const double solved_squares = real(row[13]);
+    cell.robots = row.integer("robots");
+    cell.ssi_s = row.real("ssi_s");
+    cell.reschedule = row.text("reschedule");
+    cell.order = row.text("initial_order");
+    cell.runs = row.integer("runs");
+    cell.solved = row.integer("solved");
+    cell.mean_seconds = row.real("mean_seconds");
+    cell.instances = row.integer("instances");
     cell.independent_runs =
-        independent_runs({instances, solved, runs, solved_squares, real(row[12]), real(row[11])});
+        independent_runs({row.integer("instances"), row.real("solved"), row.real("runs"),
+                          row.real("solved_squares"), row.real("runs_solved"), row.real("runs_squares")});
     if (cell.solved > 0) {
-      const std::int64_t with_plan = std::get<std::int64_t>(row[14]);
-      const RatioOfSums makespan{with_plan,     real(row[8]),  solved,
-                                 real(row[16]), real(row[15]), solved_squares};
-      const RatioOfSums flowtime{with_plan,     real(row[9]),  solved,
-                                 real(row[18]), real(row[17]), solved_squares};
+      const auto per_solved = [&row](const std::string& cost) {
+        return RatioOfSums{row.integer("with_plan"),   row.real(cost),
+                           row.real("solved"),         row.real(cost + "_squares"),
+                           row.real(cost + "_solved"), row.real("solved_squares")};
+      };
+      const RatioOfSums makespan = per_solved("makespan");
+      const RatioOfSums flowtime = per_solved("flowtime");
       cell.mean_makespan_s = makespan.value();
       cell.mean_flowtime_s = flowtime.value();
       cell.makespan_error_s = error_of(makespan);

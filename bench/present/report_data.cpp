@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/present/named_row.hpp"
 #include "db/database.hpp"
 
 namespace sipplab::bench {
@@ -93,7 +94,7 @@ db::Result<std::set<std::int64_t>> cases_of(const std::filesystem::path& path, c
   const auto table = db::run_sql(path, "SELECT case_id FROM v_run_cells WHERE run = :run", {{"run", run}});
   if (!table) return Unexpected{table.error()};
   std::set<std::int64_t> cases;
-  for (const auto& row : table->rows) cases.insert(std::get<std::int64_t>(row[0]));
+  for (const auto& row : table->rows) cases.insert(NamedRow(*table, row).integer("case_id"));
   return cases;
 }
 
