@@ -118,6 +118,16 @@ constexpr const char* kLegend =
     "are not judged. "
     "Seconds are of another machine there and judge nothing.";
 
+/// Points in order, and a tick for each number of robots.
+void finish(Chart& chart) {
+  std::set<double> robots;
+  for (ChartLine& line : chart.lines) {
+    std::sort(line.points.begin(), line.points.end());
+    for (const auto& [count, value] : line.points) robots.insert(count);
+  }
+  for (const double count : robots) chart.x_ticks.emplace_back(count, fmt::format("{:.0f}", count));
+}
+
 }  // namespace
 
 std::string reproduction_text(const std::vector<MeasuredCell>& cells) {
@@ -189,20 +199,17 @@ Chart figure_chart(const std::vector<MeasuredCell>& cells) {
   chart.y_min = 0;
   chart.y_max = 1;
   std::map<double, ChartLine> lines;
-  std::set<double> robots;
   for (const MeasuredCell& cell : cells) {
     if (cell.environment != "empty" || cell.reschedule != "none" || cell.order != "shortest") continue;
     lines[cell.ssi_s].points.emplace_back(static_cast<double>(cell.robots), cell.success());
-    robots.insert(static_cast<double>(cell.robots));
   }
   int colour = 0;
   for (auto& [ssi_s, line] : lines) {
     line.label = "ssi " + ssi_text(ssi_s);
     line.colour = colour++;
-    std::sort(line.points.begin(), line.points.end());
     chart.lines.push_back(std::move(line));
   }
-  for (const double count : robots) chart.x_ticks.emplace_back(count, fmt::format("{:.0f}", count));
+  finish(chart);
   return chart;
 }
 
@@ -213,10 +220,8 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
   chart.y_label = "mean planning time [s]";
   chart.log_y = true;
   std::map<std::string, ChartLine> lines;
-  std::set<double> robots;
-  const auto add = [&](const std::string& label, double count, double seconds) {
+  const auto add = [&lines](const std::string& label, double count, double seconds) {
     if (seconds > 0) lines[label].points.emplace_back(count, seconds);
-    robots.insert(count);
   };
   for (const MeasuredCell& cell : cells) {
     constexpr double kTableSsiS = 5;
@@ -235,10 +240,9 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
     line.dashed = label.ends_with(", paper");
     if (!line.dashed) ++colour;  // the paper's line comes right behind ours and shares its colour
     line.colour = colour;
-    std::sort(line.points.begin(), line.points.end());
     chart.lines.push_back(std::move(line));
   }
-  for (const double count : robots) chart.x_ticks.emplace_back(count, fmt::format("{:.0f}", count));
+  finish(chart);
   return chart;
 }
 
