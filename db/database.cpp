@@ -63,14 +63,14 @@ bool has_write_ahead_log(const fs::path& path) {
 
 // On a read-only medium SQLite cannot place its lock files. Without a log to replay
 // the file alone is the whole database, and nobody can be writing to it.
-Result<sqlite::Connection> open_for_reading(const fs::path& path, int latest, SchemaState& state) {
+Result<sqlite::Connection> open_for_reading(const fs::path& path, SchemaState& state) {
   auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly);
   if (!connection) return connection;
-  auto inspected = inspect(*connection, latest);
+  auto inspected = inspect(*connection, migrations());
   if (!inspected && inspected.error().kind == ErrorKind::kCannotOpen && !has_write_ahead_log(path)) {
     connection = sqlite::Connection::open(path, sqlite::OpenMode::kImmutable);
     if (!connection) return connection;
-    inspected = inspect(*connection, latest);
+    inspected = inspect(*connection, migrations());
   }
   if (!inspected) return Unexpected{inspected.error()};
   state = *inspected;
@@ -95,7 +95,7 @@ Result<Database> Database::open(const fs::path& path) {
   if (auto error = find_path_error(path, false)) return Unexpected{*error};
   auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite);
   if (!connection) return Unexpected{connection.error()};
-  const auto state = inspect(*connection, latest_schema_version());
+  const auto state = inspect(*connection, migrations());
   if (!state) return Unexpected{state.error()};
   if (auto done = configure_for_writing(*connection); !done) return Unexpected{done.error()};
   if (auto done = migrate(*connection, migrations()); !done) return Unexpected{done.error()};
@@ -105,7 +105,7 @@ Result<Database> Database::open(const fs::path& path) {
 Result<Database> Database::open_read_only(const fs::path& path) {
   if (auto error = find_path_error(path, true)) return Unexpected{*error};
   SchemaState state;
-  auto connection = open_for_reading(path, latest_schema_version(), state);
+  auto connection = open_for_reading(path, state);
   if (!connection) return Unexpected{connection.error()};
   if (state.fresh) {
     return Unexpected{Error{
@@ -114,7 +114,7 @@ Result<Database> Database::open_read_only(const fs::path& path) {
   }
   if (state.version < latest_schema_version()) {
     if (auto migrated = open(path); !migrated) return Unexpected{migrated.error()};
-    connection = open_for_reading(path, latest_schema_version(), state);
+    connection = open_for_reading(path, state);
     if (!connection) return Unexpected{connection.error()};
   }
   return Database{std::move(*connection), path};

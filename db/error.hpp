@@ -12,6 +12,7 @@ enum class ErrorKind {
   kNotFound,      ///< no such file, run or column
   kNotADatabase,  ///< the file is something else, or another program's database
   kNewerSchema,   ///< written by a newer sipplab
+  kOlderSchema,   ///< older than the first schema that migrations know
   kCannotOpen,    ///< permission, a directory, an I/O error while opening
   kBusy,          ///< another process held the lock for longer than kBusyTimeout
   kFull,          ///< no space left for the database

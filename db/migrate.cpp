@@ -18,9 +18,15 @@ Error not_ours(const sqlite::Connection& connection) {
 
 Error newer(const sqlite::Connection& connection, std::int64_t version, int latest) {
   return {ErrorKind::kNewerSchema,
-          fmt::format("{}: schema version {}, expected at most {}: a newer sipplab wrote "
-                      "it",
+          fmt::format("{}: schema version {}, expected at most {}: a newer sipplab wrote it",
                       connection.name(), version, latest)};
+}
+
+Error older(const sqlite::Connection& connection, std::int64_t version, int first) {
+  return {
+      ErrorKind::kOlderSchema,
+      fmt::format("{}: schema version {}, expected at least {}: a sipplab before the first release wrote it",
+                  connection.name(), version, first)};
 }
 
 Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
@@ -41,7 +47,7 @@ Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
 
 }  // namespace
 
-Result<SchemaState> inspect(sqlite::Connection& connection, int latest) {
+Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migration> steps) {
   // One statement, so that a schema made by another process meanwhile is seen whole.
   auto header = sqlite::Statement::prepare(connection,
                                            "SELECT application_id, user_version, "
@@ -57,7 +63,10 @@ Result<SchemaState> inspect(sqlite::Connection& connection, int latest) {
   SchemaState state;
   state.fresh = application == 0 && version == 0 && objects == 0;
   if (!state.fresh && (application != kApplicationId || version < 1)) return Unexpected{not_ours(connection)};
+  const int latest = steps.back().version;
   if (version > latest) return Unexpected{newer(connection, version, latest)};
+  const int first = steps.front().version;
+  if (!state.fresh && version < first) return Unexpected{older(connection, version, first)};
   state.version = static_cast<int>(version);
   return state;
 }

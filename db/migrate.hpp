@@ -21,7 +21,8 @@ struct Migration {
   std::string_view sql;
 };
 
-/// All of them, by version from 1 without gaps.
+/// All of them, by version without gaps. The first creates the schema of the first release,
+/// and nothing older is read.
 std::span<const Migration> migrations();
 
 /// What the header of a file says, before anything is changed.
@@ -31,8 +32,8 @@ struct SchemaState {
 };
 
 /// Reads the header. An error when the file is no database, belongs to another
-/// program, or has a schema newer than `latest`.
-Result<SchemaState> inspect(sqlite::Connection& connection, int latest);
+/// program, or has a schema that `steps` cannot bring to their last version.
+Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migration> steps);
 
 /// Applies the steps that are missing, each in a transaction of its own that also
 /// sets user_version. Does nothing on a file that is up to date. Safe when several

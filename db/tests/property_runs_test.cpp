@@ -180,59 +180,5 @@ TEST_F(PropertyRuns, a_report_is_text_or_json) {
   EXPECT_EQ(json["seed"], UINT64_MAX);
 }
 
-TEST_F(PropertyRuns, a_history_of_version_2_keeps_its_property_runs) {
-  // Written by this program, and moved to where the tables are as they were.
-  record({passed_run(1), failed_run(2)});
-  const auto rows = [&](const std::filesystem::path& path) {
-    return ask(path,
-               "SELECT group_concat(quote(uuid) || quote(seed) || quote(reproduce) || quote(plan_case) || "
-               "quote(wall_time_ns) || quote(class) || quote(property_class.cases)) "
-               "FROM property_run LEFT JOIN property_class ON property_run_id = id ORDER BY id, class");
-  };
-  const std::string before = rows(file);
-  const std::filesystem::path older = folder / "older.db";
-  {
-    auto connection = must(sqlite::Connection::open(older, sqlite::OpenMode::kReadWrite));
-    must(migrate(connection, migrations().first(2)));
-    must(connection.execute("ATTACH '" + file.string() + "' AS newer", "attaching"));
-    for (const std::string table : {"commit_", "machine", "build", "property_run", "property_class"}) {
-      const std::string columns = must(connection.query_text(
-          "SELECT group_concat(name) FROM pragma_table_info('" + table + "')", "listing columns"));
-      must(connection.execute(
-          "INSERT INTO main." + table + " (" + columns + ") SELECT " + columns + " FROM newer." + table,
-          "copying"));
-    }
-  }
-  must(Database::open(older));
-  EXPECT_EQ(rows(older), before);
-  EXPECT_EQ(ask(older, "SELECT sum(crashed) || sum(failed) FROM v_property_totals"), "01");
-  test::expect_sound(older);
-}
-
-TEST_F(PropertyRuns, a_history_of_version_1_keeps_its_rows) {
-  {
-    auto connection = must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
-    must(migrate(connection, migrations().first(1)));
-    ASSERT_EQ(must(connection.query_int("PRAGMA user_version", "asking")), 1);
-    must(
-        connection.execute("INSERT INTO machine (fingerprint, host, cpu_model, cores, memory_bytes, kernel) "
-                           "VALUES ('f', 'h', 'c', 1, 1, 'k'); "
-                           "INSERT INTO build (compiler, compiler_version, flags, build_type, assertions, "
-                           "sanitizers, binary_hash, "
-                           "dirty) VALUES ('gcc', '12', '', '', 0, '', '', 0); "
-                           "INSERT INTO run (uuid, suite, started_utc, status, machine_id, build_id, branch, "
-                           "command_line, options, "
-                           "seed, time_limit_s, writer) VALUES ('00000000-0000-4000-8000-000000000000', "
-                           "'smoke', 't', 'running', 1, "
-                           "1, '', '', '', 1, 9e999, '')",
-                           "writing rows of version 1"));
-  }
-  EXPECT_EQ(record({passed_run(1)}).added, 1U);
-  EXPECT_EQ(ask(file, "PRAGMA user_version"), std::to_string(Database::latest_schema_version()));
-  EXPECT_EQ(ask(file, "SELECT run || suite FROM v_runs"), "00000000-0000-4000-8000-000000000000smoke");
-  EXPECT_EQ(ask(file, "SELECT count(*) FROM v_property_latest"), "1");
-  test::expect_sound(file);
-}
-
 }  // namespace
 }  // namespace sipplab::db

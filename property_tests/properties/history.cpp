@@ -1,15 +1,12 @@
-// The history: what is written is what is read, and migrations keep all rows.
+// The history: what is written is what is read.
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/migrate.hpp"
 #include "db/queries.hpp"
 #include "db/recorder.hpp"
 #include "db/sqlite/statement.hpp"
@@ -280,91 +277,6 @@ void check_sound(Database& database) {
   RC_ASSERT(must(connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", "checking")) == 0);
 }
 
-// --- migrations ---------------------------------------------------------------------
-
-/// Table names; what refers to others comes after them, for they are listed as created.
-std::vector<std::string> tables_of(sqlite::Connection& connection) {
-  auto select = must(sqlite::Statement::prepare(
-      connection,
-      "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%' ORDER BY rowid",
-      "listing tables"));
-  std::vector<std::string> tables;
-  while (must(select.step())) tables.push_back(select.text(0));
-  return tables;
-}
-
-std::vector<std::string> columns_of(sqlite::Connection& connection, const std::string& table) {
-  auto select = must(sqlite::Statement::prepare(
-      connection, "SELECT name FROM pragma_table_info(?) ORDER BY cid", "listing columns"));
-  select.bind(table);
-  std::vector<std::string> columns;
-  while (must(select.step())) columns.push_back(select.text(0));
-  return columns;
-}
-
-std::string list_of(const std::vector<std::string>& columns, const char* before = "") {
-  std::string list;
-  for (const std::string& column : columns) list += (list.empty() ? "" : ", ") + (before + column);
-  return list;
-}
-
-/// What the columns hold, as SQL literals, in a fixed order.
-std::string contents(sqlite::Connection& connection, const std::string& table,
-                     const std::vector<std::string>& columns) {
-  std::string row;
-  for (const std::string& column : columns) {
-    row += (row.empty() ? "quote(" : " || ', ' || quote(") + column + ")";
-  }
-  return must(connection.query_text("SELECT ifnull(group_concat(line, char(10)), '') FROM (SELECT " + row +
-                                        " AS line FROM " + table + " ORDER BY line)",
-                                    "reading a table"));
-}
-
-using Tables = std::map<std::string, std::tuple<std::vector<std::string>, std::string>>;
-
-/// Makes a history of an older schema with the rows of `source`, as far as it has a
-/// place for them, and returns what it holds.
-Tables make_older(const std::filesystem::path& path, const std::filesystem::path& source, int version) {
-  auto older = must(sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite));
-  must(migrate(older, migrations().first(static_cast<std::size_t>(version))));
-  must(older.execute("PRAGMA foreign_keys = ON", "asking for foreign keys"));
-  must(older.execute("PRAGMA synchronous = OFF", "asking for speed"));
-  must(older.execute("ATTACH '" + source.string() + "' AS source", "attaching the source"));
-  Tables tables;
-  for (const std::string& table : tables_of(older)) {
-    const std::vector<std::string> columns = columns_of(older, table);
-    must(older.execute("INSERT INTO " + table + " (" + list_of(columns) + ") SELECT " +
-                           list_of(columns, "old.") + " FROM source." + table + " AS old",
-                       "copying a table"));
-    tables[table] = {columns, contents(older, table, columns)};
-  }
-  return tables;
-}
-
-void migrations_keep_rows() {
-  const ScratchFolder folder;
-  const std::filesystem::path newest = folder.path() / "newest.db";
-  const std::vector<Recorded> run = any_run();
-  record(must(Database::open(newest)), any_run_info(), run);
-  std::size_t rows = 0;
-  for (const Recorded& recorded : run) rows += recorded.rows.size();
-
-  const int version = *rc::gen::inRange(1, Database::latest_schema_version());
-  const std::filesystem::path path = folder.path() / ("older" + std::to_string(version) + ".db");
-  const Tables before = make_older(path, newest, version);
-  RC_ASSERT(before.count("result") == 1u);
-  Database migrated = must(Database::open(path));
-  RC_ASSERT(must(migrated.connection().query_int("PRAGMA user_version", "reading the version")) ==
-            Database::latest_schema_version());
-  for (const auto& [table, held] : before) {
-    RC_ASSERT(contents(migrated.connection(), table, std::get<0>(held)) == std::get<1>(held));
-  }
-  RC_ASSERT(must(migrated.connection().query_int("SELECT count(*) FROM v_results", "counting results")) ==
-            static_cast<std::int64_t>(rows));
-  check_sound(migrated);
-  RC_CLASSIFY(rows > 0, "with results");
-}
-
 }  // namespace
 }  // namespace sipplab::db
 
@@ -396,8 +308,6 @@ int main() {
       RC_CLASSIFY(info.commit.has_value(), "with a commit");
     });
   }
-
-  passed &= property("migrations from every older schema keep all rows", migrations_keep_rows);
 
   return passed ? 0 : 1;
 }
