@@ -113,9 +113,9 @@ TEST(Reproduction, NoClaimIsJudgedByAFewInstances) {
 
 TEST(Reproduction, SeedsOfOneInstanceDoNotNarrowTheIntervalOfSuccess) {
   MeasuredCell cell = figure_cell(192, 3, 60);
-  const ConfidenceInterval of_runs = cell.success_interval();
+  const db::statistics::ConfidenceInterval of_runs = cell.success_interval();
   cell.independent_runs = 10;
-  const ConfidenceInterval of_instances = cell.success_interval();
+  const db::statistics::ConfidenceInterval of_instances = cell.success_interval();
   EXPECT_NEAR(of_runs.low, 0.502, 0.001);       // Wilson, 60 of 100
   EXPECT_NEAR(of_instances.low, 0.313, 0.001);  // 6 of 10
   EXPECT_NEAR(of_instances.high, 0.832, 0.001);
