@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bench/present/numbers.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -247,30 +248,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        // XML has no control characters, not even as references.
-        escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return escaped;
-}
 
 std::string omission_note(std::size_t lines) {
   return lines > kMostChartLines ? fmt::format(" (the first {} of {} lines)", kMostChartLines, lines) : "";

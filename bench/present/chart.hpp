@@ -52,7 +52,4 @@ enum class SvgUse {
 /// Without any point: a frame that says so.
 std::string svg(const Chart& chart, SvgUse use);
 
-/// For text between tags and in attributes.
-std::string xml_escaped(const std::string& text);
-
 }  // namespace sipplab::bench

@@ -8,6 +8,7 @@
 #include "bench/present/numbers.hpp"
 #include "bench/present/style.hpp"
 #include "bench/present/trend_text.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -10,6 +10,7 @@
 #include "bench/present/numbers.hpp"
 #include "bench/present/style.hpp"
 #include "db/aligned.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::bench {
 namespace {

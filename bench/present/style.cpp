@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "bench/present/chart.hpp"
+#include "planner/io/text.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "planner/io/text.hpp"
-#include "planner/io/write_xml.hpp"
 
 namespace sipplab {
 namespace {
@@ -30,12 +29,7 @@ SvgCanvas& SvgCanvas::operator<<(double value) {
   return *this;
 }
 
-void SvgCanvas::label(std::string_view words) {
-  std::string line(words);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  append_escaped(out_, is_valid_utf8(line) ? line : in_quotes(line));
-}
+void SvgCanvas::label(std::string_view words) { out_ += xml_escaped(words); }
 
 void SvgCanvas::attribute(const char* name, double value) { *this << " " << name << "=\"" << value << "\""; }
 

@@ -22,7 +22,7 @@ class SvgCanvas {
   /// Text as it stands; numbers with at most three decimals.
   SvgCanvas& operator<<(std::string_view text);
   SvgCanvas& operator<<(double value);
-  /// Words for a person to read: escaped, control characters blanked.
+  /// Words for a person to read, escaped.
   void label(std::string_view words);
   /// ` name="value"`.
   void attribute(const char* name, double value);

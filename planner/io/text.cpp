@@ -74,6 +74,25 @@ std::string in_quotes(std::string_view token) {
   return "'" + shown + (token.size() > kShown ? "...'" : "'");
 }
 
+std::string xml_escaped(std::string_view text) {
+  if (!is_valid_utf8(text)) return xml_escaped(in_quotes(text));
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else if (c == '>') {
+      escaped += "&gt;";
+    } else if (c == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
 std::string_view without_byte_order_mark(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;
