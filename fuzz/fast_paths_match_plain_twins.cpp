@@ -108,7 +108,7 @@ void check_safe_intervals(const Instance& instance, const Agent& agent, const Tr
                              : MovingDisk::moving(Displacement(from, centre(motion.to)), motion.begin_s,
                                                   motion.end_s, traffic.radii[k]));
       }
-      cut(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, traffic.radii[k]));
+      cut(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, traffic.radii[k]));
     }
     require_twins(std::ranges::equal(table.safe_intervals(cell, agent.radius_cells), expected.intervals()),
                   "other safe intervals");

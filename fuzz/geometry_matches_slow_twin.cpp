@@ -141,7 +141,7 @@ std::vector<MovingDisk> disks_of(const PlanCase& plan_case) {
       add(MovingDisk::moving(Displacement(centre(motion.from), centre(motion.to)), motion.begin_s,
                              motion.end_s, obstacle.radius_cells));
     }
-    add(MovingDisk::resting(centre(obstacle.trajectory.end()), obstacle.trajectory.arrival_s(), kForever,
+    add(MovingDisk::resting(centre(obstacle.trajectory.end()), obstacle.trajectory.end_s(), kForever,
                             obstacle.radius_cells));
   }
   const double begin_s = std::isinf(plan_case.options.ssi_s) ? 0 : plan_case.options.ssi_s;

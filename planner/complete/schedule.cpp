@@ -114,8 +114,8 @@ Solution timed_motions(const FreeGrid& grid, const Visits& visits, const std::ve
       // Different times of a plan differ by far more than rounding: a + b sqrt(2) is at least
       // 1 / (|a| + 2 |b|) away from 0.
       const double begin_s = departure.seconds(unit_move_s);
-      if (waits) motions.push_back({trajectory.arrival_s(), begin_s, from, from});
-      motions.push_back({trajectory.arrival_s(), end_s, from, to});
+      if (waits) motions.push_back({trajectory.end_s(), begin_s, from, from});
+      motions.push_back({trajectory.end_s(), end_s, from, to});
       last_step = step;
     }
   }

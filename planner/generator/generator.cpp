@@ -229,7 +229,7 @@ std::vector<DynamicObstacle> draw_obstacles(const GridMap& map, const GeneratorO
     const auto go = [&](Cell to) {
       const Cell from = trajectory.end();
       if (to == from) return;
-      const double begin_s = trajectory.arrival_s();
+      const double begin_s = trajectory.end_s();
       trajectory.motions.push_back({begin_s, begin_s + distance(from, to) / speed_cells_per_s, from, to});
     };
     for (std::uint64_t left = 1 + random.below(kMostCellsOnTheWay); left > 0; --left) {

@@ -67,7 +67,7 @@ bool read_obstacle(Words& words, Instance& instance) {
   while (!words.empty()) {
     const std::string_view word = words.next();
     if (word == "radius" && words.read(obstacle.radius_cells)) continue;
-    TimedMotion motion{trajectory.arrival_s(), 0, trajectory.end(), {}};
+    TimedMotion motion{trajectory.end_s(), 0, trajectory.end(), {}};
     if (word != "until" || !words.read(motion.end_s) || words.next() != "at" || !words.read(motion.to))
       return false;
     trajectory.motions.push_back(motion);

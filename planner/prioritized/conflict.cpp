@@ -12,7 +12,7 @@ namespace {
 /// A part of a trajectory: a motion, or the rest at its end.
 TimedMotion part_of(const Trajectory& trajectory, std::size_t i) {
   if (i < trajectory.motions.size()) return trajectory.motions[i];
-  return {trajectory.arrival_s(), kForever, trajectory.end(), trajectory.end()};
+  return {trajectory.end_s(), kForever, trajectory.end(), trajectory.end()};
 }
 
 /// Whether the two stay farther apart than `reach` along either axis.

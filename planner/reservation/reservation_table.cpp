@@ -168,7 +168,7 @@ std::vector<ReservationTable::DiskId> ReservationTable::add(const Trajectory& tr
     ids.push_back(add(MovingDisk::moving(way, motion.begin_s, motion.end_s, radius_cells)));
   }
   ids.push_back(
-      add(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius_cells)));
+      add(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, radius_cells)));
   return ids;
 }
 

@@ -32,7 +32,7 @@ double flowtime_s(const Solution& solution) {
 std::string plan_hash(const Solution& solution) {
   Digest digest("sipplab plan 1");
   digest.add(static_cast<std::uint64_t>(solution.trajectories.size()));
-  for (const Trajectory& trajectory : solution.trajectories) digest.add(trajectory);
+  for (const Trajectory& trajectory : solution.trajectories) digest.add(canonical(trajectory));
   return digest.hex();
 }
 

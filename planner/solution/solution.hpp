@@ -23,8 +23,8 @@ double makespan_s(const Solution& solution);
 /// Sum of arrivals, in seconds ("sum of costs" elsewhere).
 double flowtime_s(const Solution& solution);
 
-/// 32 hexadecimal digits over the exact bits of all motions: equal for equal
-/// plans, on every machine (XXH3, 128 bits).
+/// 32 hexadecimal digits over the exact bits of all motions in canonical form: equal for equal motions,
+/// however they are written down, on every machine (XXH3, 128 bits).
 std::string plan_hash(const Solution& solution);
 
 }  // namespace sipplab

@@ -33,9 +33,17 @@ struct Trajectory {
   std::vector<TimedMotion> motions;
 
   Cell end() const { return motions.empty() ? start : motions.back().to; }
-  /// When the last motion ends, in seconds; 0 for a robot that never moves.
-  double arrival_s() const { return motions.empty() ? 0.0 : motions.back().end_s; }
+  /// When the last motion ends, be it a wait, in seconds; 0 without motions. Before it the robot is where its
+  /// motions say, from then on at rest.
+  double end_s() const { return motions.empty() ? 0.0 : motions.back().end_s; }
+  /// When the last stay begins, in seconds: the end of the last move or turn, 0 for a robot that never does
+  /// either. Waits that are written down after it change nothing.
+  double arrival_s() const;
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
+
+/// The same motion in the fewest pieces: waits that follow each other are one wait, moves straight on at the
+/// same speed are one move, and there is no wait at the end. Equal for every notation of a motion.
+Trajectory canonical(const Trajectory& trajectory);
 
 }  // namespace sipplab

@@ -73,10 +73,11 @@ class HeadingCheck {
     states_a_turn_ = false;
   }
 
-  void rest(double arrival_s) {
+  /// A turn that is not written down may take the waits before `end_s`.
+  void rest(double end_s) {
     if (!agent_.goal_heading_deg) return;
-    face(facing(*agent_.goal_heading_deg), arrival_s, "ends");
-    require_time(arrival_s);
+    face(facing(*agent_.goal_heading_deg), end_s, "ends");
+    require_time(end_s);
   }
 
  private:
@@ -136,7 +137,7 @@ void check_headings(const Instance& instance, AgentIndex agent, const Trajectory
       check.move(motion);
     }
   }
-  check.rest(trajectory.arrival_s());
+  check.rest(trajectory.end_s());
 }
 
 }  // namespace sipplab

@@ -94,7 +94,7 @@ Touch convoy(std::int32_t cells, double speed) {
   touch.a = {{1, 0}, {{0, cells / speed, {1, 0}, {1 + cells, 0}}}};
   touch.b.start = {0, 0};
   for (std::int32_t x = 0; x < cells; ++x) {
-    const double now_s = touch.b.arrival_s();
+    const double now_s = touch.b.end_s();
     touch.b.motions.push_back({now_s, now_s + 1 / speed, {x, 0}, {x + 1, 0}});
   }
   return touch;
@@ -130,7 +130,7 @@ Touch past_a_corner(std::int32_t cells, double speed) {
 /// is nearest: a span in which hardly anything moves.
 Touch past_a_fidgeting_corner(std::int32_t cells, double speed, double beside_s) {
   Touch touch = past_a_corner(cells, speed);
-  const double nearest_s = touch.b.arrival_s() * (cells + 0.5) / (2 * cells);
+  const double nearest_s = touch.b.end_s() * (cells + 0.5) / (2 * cells);
   const Cell rest = touch.a.start;
   const double before_s = std::max(0.0, nearest_s - beside_s);
   touch.a.motions.push_back({0, before_s, rest, rest});

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -69,6 +71,33 @@ const Violation* find(const ValidationReport& report, ViolationKind kind, AgentI
     if (violation.kind == kind && violation.agent == agent && violation.other == other) return &violation;
   }
   return nullptr;
+}
+
+/// The same motion in more pieces: moves cut at cell centres, waits anywhere, and waits added at the end.
+Trajectory in_pieces(const Trajectory& trajectory) {
+  Trajectory result{trajectory.start, {}};
+  for (const TimedMotion& motion : trajectory.motions) {
+    const std::int32_t steps = std::gcd(motion.to.x - motion.from.x, motion.to.y - motion.from.y);
+    const std::int32_t pieces = motion.is_turn() ? 1 : motion.is_wait() ? 3 : steps;
+    TimedMotion rest = motion;
+    for (std::int32_t k = 1; k < pieces; ++k) {
+      if (*rc::gen::arbitrary<bool>()) continue;
+      TimedMotion piece = rest;
+      piece.end_s = motion.begin_s + (motion.end_s - motion.begin_s) * k / pieces;
+      piece.to = {motion.from.x + (motion.to.x - motion.from.x) / pieces * k,
+                  motion.from.y + (motion.to.y - motion.from.y) / pieces * k};
+      if (!(piece.end_s > piece.begin_s && piece.end_s < motion.end_s)) continue;
+      result.motions.push_back(piece);
+      rest.begin_s = piece.end_s;
+      rest.from = piece.to;
+    }
+    result.motions.push_back(rest);
+  }
+  for (int waits = *rc::gen::inRange(0, 3); waits > 0; --waits) {
+    const double now_s = result.motions.empty() ? 0 : result.motions.back().end_s;
+    result.motions.push_back({now_s, now_s + 1.5, result.end(), result.end()});
+  }
+  return result;
 }
 
 /// `least` is a sampled distance of two bodies that touch at `contact`: the true one
@@ -224,6 +253,17 @@ int main() {
                 violation.kind == ViolationKind::kAgentCollision ||
                 violation.kind == ViolationKind::kObstacleCollision);
     }
+  });
+
+  passed &= property("verdict, costs and hash do not depend on how a motion is written down", [] {
+    const Scene scene = *any_scene();
+    Scene rewritten = scene;
+    for (Trajectory& trajectory : rewritten.solution.trajectories) trajectory = in_pieces(trajectory);
+    RC_ASSERT(makespan_s(rewritten.solution) == makespan_s(scene.solution));
+    RC_ASSERT(flowtime_s(rewritten.solution) == flowtime_s(scene.solution));
+    RC_ASSERT(plan_hash(rewritten.solution) == plan_hash(scene.solution));
+    RC_ASSERT(kinds_of(report_of(rewritten)) == kinds_of(report_of(scene)));
+    RC_CLASSIFY(rewritten.solution != scene.solution, "rewritten");
   });
 
   passed &= property("the verdict is the same after a quarter turn and in a mirror", [] {

@@ -142,7 +142,7 @@ void add_obstacle(Random& random, Instance& instance) {
   trajectory.start = draw_cell(random, instance.map);
   const std::uint64_t motions = random.below(4);
   for (std::uint64_t i = 0; i < motions; ++i) {
-    const double begin_s = trajectory.arrival_s();
+    const double begin_s = trajectory.end_s();
     const Cell to = random.one_in(4) ? trajectory.end() : draw_cell(random, instance.map);
     trajectory.motions.push_back({begin_s, begin_s + 0.5 + draw_eighths(random, 4), trajectory.end(), to});
   }

@@ -157,7 +157,7 @@ void change_obstacle(Random& random, Instance& instance) {
       break;
     default: {
       if (trajectory.motions.size() >= kMutatedMotions) break;
-      const double begin_s = trajectory.arrival_s();
+      const double begin_s = trajectory.end_s();
       const Cell to =
           random.one_in(4) ? trajectory.end() : near_or_far(random, instance.map, trajectory.end());
       trajectory.motions.push_back(

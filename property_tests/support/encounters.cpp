@@ -102,7 +102,7 @@ Trajectory Walk::trajectory() const {
   if (begin_s > 0) trajectory.motions.push_back({0, begin_s, start, start});
   for (const Step& step : steps) {
     const Cell from = trajectory.end();
-    const double now_s = trajectory.arrival_s();
+    const double now_s = trajectory.end_s();
     const double duration_s = step.to == from ? step.wait_s : distance(from, step.to) / step.speed;
     trajectory.motions.push_back({now_s, now_s + duration_s, from, step.to});
   }
@@ -136,7 +136,7 @@ std::vector<MovingDisk> disks_of(const Trajectory& trajectory, double radius) {
     disks.push_back(MovingDisk::moving(Displacement(centre(motion.from), centre(motion.to)), motion.begin_s,
                                        motion.end_s, radius));
   }
-  disks.push_back(MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius));
+  disks.push_back(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, radius));
   return disks;
 }
 

@@ -31,7 +31,7 @@ Trajectory walk(Random& random, const GridMap& map, double speed, std::uint64_t 
   trajectory.start = draw_cell(random, map);
   for (std::uint64_t i = 0; i < motions; ++i) {
     const Cell from = trajectory.end();
-    const double begin_s = trajectory.arrival_s();
+    const double begin_s = trajectory.end_s();
     const Cell to = random.below(4) == 0 ? from
                                          : Cell{near(random, from.x, map.width(), stride),
                                                 near(random, from.y, map.height(), stride)};

@@ -46,7 +46,7 @@ class Traffic {
     trajectory.start = places.front();
     if (wait_s > 0) trajectory.motions.push_back({0, wait_s, places.front(), places.front()});
     for (std::size_t i = 1; i < places.size(); ++i) {
-      const double begin_s = trajectory.arrival_s();
+      const double begin_s = trajectory.end_s();
       trajectory.motions.push_back(
           {begin_s, begin_s + distance(places[i - 1], places[i]) / speed, places[i - 1], places[i]});
     }
