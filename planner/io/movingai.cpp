@@ -10,7 +10,11 @@
 namespace sipplab {
 namespace {
 
-constexpr std::string_view kFreeCells = ".GS";
+/// MovingAI's letters; E is an emitter of the League of Robot Runners, where robots may stand. # is what
+/// other text maps have for walls.
+constexpr std::string_view kFreeCells = ".GSE";
+constexpr std::string_view kBlockedCells = "@OTW#";
+constexpr const char* kCellWords = "'.', 'G', 'S' or 'E' where free, '@', 'O', 'T', 'W' or '#' where blocked";
 
 bool is_printable(char c) { return c > ' ' && c < 0x7f; }
 
@@ -117,10 +121,15 @@ Input<GridMap> parse_movingai_map(std::string_view text, const std::string& file
           std::to_string(width));
     }
     for (const char cell : *row) {
-      if (!is_printable(cell)) {
-        return reader.error("unprintable cell in row " + std::to_string(rows.size()),
-                            "'.', 'G' or 'S' where free, another visible character where blocked");
-      }
+      if (kFreeCells.find(cell) != std::string_view::npos ||
+          kBlockedCells.find(cell) != std::string_view::npos)
+        continue;
+      const bool is_digit = cell >= '0' && cell <= '9';
+      return reader.error(
+          (is_printable(cell) ? "cell " + in_quotes({&cell, 1}) : std::string("unprintable cell")) +
+              " in row " + std::to_string(rows.size()) +
+              (is_digit ? " (weighted terrain, which has no meaning here)" : ""),
+          kCellWords);
     }
     rows.push_back(*row);
   }

@@ -60,6 +60,7 @@ LinedList<Agent> read_agents(XmlReader& reader, xml_node node) {
   for (const xml_node element : node.children("agent")) {
     reader.expect_only_attributes(element, {"id", "start.x", "start.y", "goal.x", "goal.y", "size",
                                             "movespeed", "rotationspeed", "start.heading", "goal.heading"});
+    reader.expect_only_children(element, {});
     Agent agent = defaults;
     agent.id = id_of(reader, element, agents.items.size());
     agent.start = {reader.required_integer(element, "start.x"), reader.required_integer(element, "start.y")};

@@ -103,7 +103,8 @@ std::optional<OptionsPart> read_options(XmlReader& reader) {
   OptionsPart part;
   part.line = reader.line(algorithm ? algorithm : options);
   read_algorithm(reader, algorithm, part.options);
-  reader.expect_only_children(options, {"loglevel", "logpath", "logfilename", "logname"});
+  reader.expect_only_children(options, {"loglevel", "logpath", "logfilename", "logname"},
+                              XmlReader::Others::kIgnored);
   if (const xml_node child = reader.only_child(options, "loglevel")) {
     part.options.log_level = reader.real_text(child, kLogLevels);
   }

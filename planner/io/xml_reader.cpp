@@ -108,20 +108,30 @@ std::vector<std::string> XmlReader::take_warnings() {
   return std::move(warnings_);
 }
 
-void XmlReader::expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names) {
+void XmlReader::report(pugi::xml_node node, std::string what, std::initializer_list<std::string_view> names,
+                       Others others) {
+  if (others == Others::kIgnored) return warn(node, what + ", ignored");
+  std::string known;
+  for (const std::string_view name : names) known += (known.empty() ? "only " : ", ") + std::string(name);
+  fail(node, std::move(what), known.empty() ? "none" : known);
+}
+
+void XmlReader::expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names,
+                                     Others others) {
   for (const pugi::xml_node child : node.children()) {
     if (is_text(child)) {
-      warn(child, "text " + in_quotes(trimmed(child.value())) + " in " + tag(node) + ", ignored");
+      report(child, "text " + in_quotes(trimmed(child.value())) + " in " + tag(node), names, others);
     } else if (child.type() == pugi::node_element && !contains(names, child.name())) {
-      warn(child, "unknown tag " + tag(child) + " in " + tag(node) + ", ignored");
+      report(child, "unknown tag " + tag(child) + " in " + tag(node), names, others);
     }
   }
 }
 
-void XmlReader::expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names) {
+void XmlReader::expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names,
+                                       Others others) {
   for (const pugi::xml_attribute attribute : node.attributes()) {
     if (contains(names, attribute.name())) continue;
-    warn(node, "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(node) + ", ignored");
+    report(node, "unknown attribute " + in_quotes(attribute.name()) + " in " + tag(node), names, others);
   }
 }
 

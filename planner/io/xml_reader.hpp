@@ -49,9 +49,14 @@ class XmlReader {
   /// All warnings so far; a last one says how many more there were.
   std::vector<std::string> take_warnings();
 
-  /// Warns of children, or of text between children, that are not in the list.
-  void expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names);
-  void expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names);
+  /// What becomes of tags, attributes and text that the reader does not know. Refused where they could change
+  /// the problem; reported by a warning where they cannot.
+  enum class Others { kRefused, kIgnored };
+  /// Looks for children, and text between children, that are not in the list.
+  void expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names,
+                            Others others = Others::kRefused);
+  void expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names,
+                              Others others = Others::kRefused);
 
   /// The child of this name, or an empty node; a second one is an error.
   pugi::xml_node only_child(pugi::xml_node node, const char* name);
@@ -73,6 +78,9 @@ class XmlReader {
   bool boolean_text(pugi::xml_node node);
 
  private:
+  void report(pugi::xml_node node, std::string what, std::initializer_list<std::string_view> names,
+              Others others);
+
   XmlReader(std::string_view text, const std::string& file_name) : lines_(text), file_name_(file_name) {}
 
   LineTable lines_;

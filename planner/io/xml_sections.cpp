@@ -91,8 +91,10 @@ Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions&
   std::optional<Cell> at;
   HeadingReader headings(reader, options);
   for (const xml_node section : node.children("section")) {
-    reader.expect_only_attributes(section, {"id", "start.x", "start.y", "start.heading", "goal.x", "goal.y",
-                                            "goal.heading", "duration", "begin", "end", "turn"});
+    reader.expect_only_attributes(section,
+                                  {"id", "start.x", "start.y", "start.heading", "goal.x", "goal.y",
+                                   "goal.heading", "duration", "begin", "end", "turn"},
+                                  XmlReader::Others::kIgnored);
     TimedMotion motion;
     motion.from = read_cell(reader, section, "start.x", "start.y");
     motion.to = read_cell(reader, section, "goal.x", "goal.y");

@@ -64,8 +64,8 @@ std::string octile_map(const GridMap& map) {
                      std::to_string(map.width()) + "\nmap\n";
   for (std::int32_t y = 0; y < map.height(); ++y) {
     for (std::int32_t x = 0; x < map.width(); ++x) {
-      text +=
-          map.is_blocked({x, y}) ? *rc::gen::element('@', 'O', 'T', 'W') : *rc::gen::element('.', 'G', 'S');
+      text += map.is_blocked({x, y}) ? *rc::gen::element('@', 'O', 'T', 'W', '#')
+                                     : *rc::gen::element('.', 'G', 'S', 'E');
     }
     text += '\n';
   }

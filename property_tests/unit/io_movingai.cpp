@@ -18,13 +18,13 @@ std::string scen_error(const std::string& text) {
   return scenario ? "no error" : scenario.error().message();
 }
 
-TEST(IoMovingai, DotGAndSAreFreeAndAllElseIsBlocked) {
-  const Input<GridMap> map = parse_movingai_map("type octile\nheight 2\nwidth 4\nmap\n.GS@\nOTW#\n", "m");
+TEST(IoMovingai, KnowsWhichLettersAreFreeAndWhichAreBlocked) {
+  const Input<GridMap> map = parse_movingai_map("type octile\nheight 2\nwidth 5\nmap\n.GSE@\nOTW##\n", "m");
   ASSERT_TRUE(map);
-  EXPECT_EQ(map->width(), 4);
+  EXPECT_EQ(map->width(), 5);
   EXPECT_EQ(map->height(), 2);
-  for (std::int32_t x = 0; x < 4; ++x) {
-    EXPECT_EQ(map->is_blocked({x, 0}), x == 3);
+  for (std::int32_t x = 0; x < 5; ++x) {
+    EXPECT_EQ(map->is_blocked({x, 0}), x == 4);
     EXPECT_TRUE(map->is_blocked({x, 1}));
   }
 }
@@ -63,10 +63,12 @@ TEST(IoMovingai, BadMapsAreOneLineThatNamesTheLine) {
   EXPECT_EQ(movingai_map_error(head + "...\n....\n"), "m:6: row 1 has 4 cells, expected 3");
   EXPECT_EQ(movingai_map_error(head + "..\n...\n"), "m:5: row 0 has 2 cells, expected 3");
   EXPECT_EQ(movingai_map_error(head + "...\n\n...\n"), "m:6: row 1 has 0 cells, expected 3");
-  EXPECT_EQ(
-      movingai_map_error(head + "...\n. .\n"),
-      "m:6: unprintable cell in row 1, expected '.', 'G' or 'S' where free, another visible character where "
-      "blocked");
+  const std::string expected =
+      ", expected '.', 'G', 'S' or 'E' where free, '@', 'O', 'T', 'W' or '#' where blocked";
+  EXPECT_EQ(movingai_map_error(head + "...\n. .\n"), "m:6: unprintable cell in row 1" + expected);
+  EXPECT_EQ(movingai_map_error(head + "..x\n...\n"), "m:5: cell 'x' in row 0" + expected);
+  EXPECT_EQ(movingai_map_error(head + "...\n.3.\n"),
+            "m:6: cell '3' in row 1 (weighted terrain, which has no meaning here)" + expected);
   EXPECT_EQ(movingai_map_error(head + "...\n...\n\n...\n"),
             "m:8: text '...' after the last row, expected 2 rows");
 }

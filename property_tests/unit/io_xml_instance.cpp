@@ -135,23 +135,25 @@ TEST(IoXmlInstance, BadMapsNameTheirLine) {
             "f:4: a second <grid> in <map>, expected one");
 }
 
-TEST(IoXmlInstance, UnknownTagsAndAttributesAreWarnedOf) {
-  const Input<InstanceParts> parts = parse_xml_instance(
-      in_root("<agents "
-              "nubmer=\"0\">\n<agnet/>\n</agents>\n<algorithm>\n<timelimits>3</timelimits></algorithm>stray"),
-      "f");
-  ASSERT_TRUE(parts) << parts.error().message();
-  EXPECT_EQ(parts->warnings,
-            (std::vector<std::string>{"f:6: text 'stray' in <root>, ignored",
-                                      "f:3: unknown tag <agnet> in <agents>, ignored",
-                                      "f:2: unknown attribute 'nubmer' in <agents>, ignored",
-                                      "f:6: unknown tag <timelimits> in <algorithm>, ignored"}));
+TEST(IoXmlInstance, UnknownTagsAndAttributesAreRefused) {
+  const auto complaint = [](const std::string& text) {
+    const Input<InstanceParts> parts = parse_xml_instance(in_root(text), "f");
+    return parts ? "none" : parts.error().message();
+  };
+  EXPECT_EQ(complaint("<agents nubmer=\"0\"></agents>"),
+            "f:2: unknown attribute 'nubmer' in <agents>, expected only number");
+  EXPECT_EQ(complaint("<agents>\n<default_parameters size=\"0.3\"/></agents>"),
+            "f:3: unknown tag <default_parameters> in <agents>, expected only defaultparameters, agent");
+  EXPECT_EQ(complaint("<agents>\n<agent id=\"0\" start.x=\"0\" start.y=\"0\" goal.x=\"1\" goal.y=\"0\">\n"
+                      "<vertex/></agent></agents>"),
+            "f:4: unknown tag <vertex> in <agent>, expected none");
+  EXPECT_EQ(complaint("stray").substr(0, 47), "f:1: text 'stray' in <root>, expected only agen");
 }
 
 TEST(IoXmlInstance, AFloodOfWarningsIsCounted) {
   std::string tags;
   for (int i = 0; i < 50; ++i) tags += "<x/>\n";
-  const Input<InstanceParts> parts = parse_xml_instance(in_root(tags), "f");
+  const Input<InstanceParts> parts = parse_xml_instance(in_root("<options>" + tags + "</options>"), "f");
   ASSERT_TRUE(parts);
   ASSERT_EQ(parts->warnings.size(), 21u);
   EXPECT_EQ(parts->warnings.back(), "f: 30 more warnings of this kind");
