@@ -93,7 +93,8 @@ int parse_and_run(int argc, char** argv) {
     return fail(kBadUsage,
                 "sipplab: a flag with a value that is none of true and false; see " + help_command(program));
   }
-  for (const std::string& error : {idle_flag_error(program), overwrite_error(program)}) {
+  for (const std::string& error :
+       {empty_value_error(program), idle_flag_error(program), overwrite_error(program)}) {
     if (!error.empty()) return fail(kBadUsage, "sipplab: " + error + "; see " + help_command(program));
   }
   for (const Command& command : commands) {

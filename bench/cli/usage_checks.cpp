@@ -27,6 +27,9 @@ constexpr std::string_view kBenchmarkOut = "--benchmark_out=";
 constexpr std::string_view kOfImprovement[] = {"objective", "threads"};
 constexpr std::string_view kImproving[] = {"improve", "best"};
 
+/// Options that may be empty: words that a checkout need not have, and the value of a parameter.
+constexpr std::string_view kMayBeEmpty[] = {"subject", "branch", "param"};
+
 struct NamedFile {
   std::string option;  ///< "--svg"
   fs::path path;
@@ -119,6 +122,20 @@ std::string empty_element_error(const CLI::App& program, int argc, const char* c
     const bool has_empty =
         !list.empty() && (list.front() == ',' || list.back() == ',' || list.find(",,") != std::string::npos);
     if (has_empty) return "--" + name + ": " + in_quotes(list) + ", expected something between the commas";
+  }
+  return "";
+}
+
+std::string empty_value_error(const CLI::App& program) {
+  for (const CLI::Option* option : program.get_options()) {
+    const auto names = [option](std::string_view name) { return has_name(*option, name); };
+    if (std::any_of(std::begin(kMayBeEmpty), std::end(kMayBeEmpty), names)) continue;
+    for (const std::string& value : option->results()) {
+      if (value.empty()) return option->get_name() + " is empty, expected a value";
+    }
+  }
+  for (const CLI::App* command : program.get_subcommands()) {
+    if (std::string error = empty_value_error(*command); !error.empty()) return error;
   }
   return "";
 }

@@ -14,6 +14,9 @@ void refuse_false_counts(CLI::App& program);
 /// --ssi 5,,9, which the library underneath would leave out. Else empty.
 std::string empty_element_error(const CLI::App& program, int argc, const char* const* argv);
 
+/// After parsing: one line where an option is given without a value, as in --db "$UNSET". Else empty.
+std::string empty_value_error(const CLI::App& program);
+
 /// After parsing: one line where a file that would be written is another one that was named, be it read,
 /// written as well, or the history itself, which would be lost. Else empty.
 std::string overwrite_error(const CLI::App& program);

@@ -97,6 +97,13 @@ refused 'headings, delays or inflation, expected none' plan --instance bay.xml -
 refused "'greedy', expected none or complete" plan --instance bay.xml --fallback greedy
 refused "'greedy', expected prioritized or complete" plan --instance bay.xml --method greedy
 
+# An empty value, as of a variable that is not set, names nothing.
+for command in 'bench --suite smoke' 'import google-benchmark r.json' 'merge other.db' 'runs' 'plot figure1'; do
+  # shellcheck disable=SC2086 # words of a command
+  refused '^sipplab: --db is empty, expected a value; see' $command --db ''
+done
+refused '--output is empty, expected a value' plan --instance bay.xml -o ''
+
 mkdir mixed && cp fast.xml mixed/0.xml
 
 # --- headings ---------------------------------------------------------------------
