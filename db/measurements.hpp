@@ -22,6 +22,10 @@ struct Measurement {
   std::optional<double> cpu_time_ns;
   std::string error;  ///< empty: it ran
   std::vector<std::pair<std::string, double>> counters;
+  std::string
+      aggregate;  ///< of many repetitions that are not known: "median" or "mean"; empty: one repetition
+  std::int64_t threads = 1;
+  std::string label;
 };
 
 struct MeasurementRun {
@@ -29,6 +33,7 @@ struct MeasurementRun {
   std::string started_utc;
   RunInfo info;
   std::vector<Measurement> measurements;
+  std::vector<std::pair<std::string, std::string>> context;  ///< what else the report says of the whole run
 };
 
 struct MeasurementsRecorded {

@@ -67,8 +67,8 @@ Command add_import_command(CLI::App& program) {
   command->add_option("--suite", arguments->context.suite, "name for them; default: the program that ran");
   command->add_option("--commit", arguments->context.commit, "hash of the commit that was measured")
       ->check([](const std::string& text) {
-        const bool hash = text.size() >= 7 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-        return hash ? std::string() : in_quotes(text) + ", expected 7 or more hexadecimal digits";
+        return bench::is_commit_hash(text) ? std::string()
+                                           : in_quotes(text) + ", expected 7 or more hexadecimal digits";
       });
   command->add_option("--subject", arguments->context.subject, "first line of that commit's message");
   command->add_option("--branch", arguments->context.branch, "branch that was measured");

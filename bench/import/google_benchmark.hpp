@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "db/measurements.hpp"
 #include "planner/core/expected.hpp"
@@ -17,8 +18,12 @@ struct ImportContext {
   std::string branch;
 };
 
-/// Errors: one line, `file:line: what, expected what`. Aggregates (mean, median, ...) are left
-/// out: the history makes its own.
+/// 7 or more lower-case hexadecimal digits.
+bool is_commit_hash(std::string_view text);
+
+/// Errors: one line, `file:line: what, expected what`. Of a benchmark with repetitions the aggregates (mean,
+/// median, ...) are left out: the history makes its own. Of one that is reported by aggregates alone, the
+/// median (else the mean) is one measurement. Linear in the size of the report.
 Expected<db::MeasurementRun, std::string> read_google_benchmark(const std::string& path,
                                                                 const ImportContext& context);
 
