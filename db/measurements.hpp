@@ -25,7 +25,7 @@ struct Measurement {
   std::string
       aggregate;  ///< of many repetitions that are not known: "median" or "mean"; empty: one repetition
   std::int64_t threads = 1;
-  std::string label;
+  std::string label = "";
 };
 
 struct MeasurementRun {
