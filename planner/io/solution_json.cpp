@@ -1,6 +1,9 @@
-// Solutions as JSON: see solution_io.hpp. Written by hand, so that keys keep their
-// order and each trajectory has a line of its own.
+// Solutions as JSON: see solution_io.hpp.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "planner/core/assert.hpp"
 #include "planner/io/solution_io.hpp"
@@ -9,33 +12,18 @@
 namespace sipplab {
 namespace {
 
-void append_string(std::string& out, std::string_view text) {
-  constexpr const char* kHexDigits = "0123456789abcdef";
-  out += '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20) {
-      out += "\\u00";
-      out += kHexDigits[byte >> 4];
-      out += kHexDigits[byte & 0xf];
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
+using Json = nlohmann::ordered_json;
+
+/// Whole numbers without a point. JSON has neither infinity nor NaN: they become null.
+Json number(std::optional<double> value) {
+  constexpr double kWholeBelow = 0x1p53;  // each whole number is a double up to here
+  if (!value || !std::isfinite(*value)) return nullptr;
+  const bool is_whole = std::trunc(*value) == *value && std::abs(*value) < kWholeBelow;
+  if (is_whole && (*value != 0 || !std::signbit(*value))) return static_cast<std::int64_t>(*value);
+  return *value;
 }
 
-/// JSON has neither infinity nor NaN: they become null.
-void append_number(std::string& out, std::optional<double> value) {
-  if (value && std::isfinite(*value)) {
-    append_real(out, *value);
-  } else {
-    out += "null";
-  }
-}
+Json ssi(double ssi_s) { return std::isinf(ssi_s) ? Json("inf") : number(ssi_s); }
 
 /// Digits that every JSON reader keeps, even one that stores all numbers as double.
 constexpr std::size_t kSafeDigits = 15;
@@ -46,150 +34,103 @@ bool is_canonical_integer(std::string_view id) {
   return id.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-void append_id(std::string& out, const std::string& id) {
-  if (is_canonical_integer(id)) {
-    out += id;
-  } else {
-    append_string(out, id);
+/// On one line, with a blank after each comma and colon: line breaks of a text would be escaped.
+std::string text_of(const Json& value) {
+  std::string text;
+  for (const char c : value.dump(0, ' ', false, Json::error_handler_t::replace)) {
+    if (c != '\n') text += c;
+    if (c == '\n' && text.back() == ',') text += ' ';
   }
+  return text;
 }
 
-void append_trajectory(std::string& out, const Agent& agent, const Trajectory& trajectory) {
-  out += "{\"id\": ";
-  append_id(out, agent.id);
-  out += ", \"radius\": ";
-  append_number(out, agent.radius_cells);
-  out += ", \"speed\": ";
-  append_number(out, agent.speed_cells_per_s);
-  out += ", \"motions\": [";
-  bool first = true;
-  for (const TimedMotion& motion : trajectory.motions) {
-    out += first ? "{\"t0\": " : ", {\"t0\": ";
-    first = false;
-    append_number(out, motion.begin_s);
-    out += ", \"t1\": ";
-    append_number(out, motion.end_s);
-    out += ", \"x0\": " + std::to_string(motion.from.x) + ", \"y0\": " + std::to_string(motion.from.y) +
-           ", \"x1\": " + std::to_string(motion.to.x) + ", \"y1\": " + std::to_string(motion.to.y);
-    if (motion.turn_to_deg) {
-      out += ", \"turn_to\": ";
-      append_number(out, *motion.turn_to_deg);
-    }
-    out += '}';
-  }
-  out += "]}";
+std::string real(double value) { return std::isfinite(value) ? format_real(value) : "null"; }
+
+/// Nearly all of a file is motions, and they are numbers alone: as documents each would take seven times as
+/// long.
+void append_motion(std::string& out, const TimedMotion& motion) {
+  fmt::format_to(std::back_inserter(out), R"({{"t0": {}, "t1": {}, "x0": {}, "y0": {}, "x1": {}, "y1": {})",
+                 real(motion.begin_s), real(motion.end_s), motion.from.x, motion.from.y, motion.to.x,
+                 motion.to.y);
+  if (motion.turn_to_deg) out += R"(, "turn_to": )" + real(*motion.turn_to_deg);
+  out += '}';
 }
 
-void append_ssi(std::string& out, double ssi_s) {
-  if (std::isinf(ssi_s)) {
-    out += "\"inf\"";
-  } else {
-    append_number(out, ssi_s);
+std::string trajectory_text(const Agent& agent, const Trajectory& trajectory) {
+  std::string out = fmt::format(R"({{"id": {}, "radius": {}, "speed": {}, "motions": [)",
+                                is_canonical_integer(agent.id) ? agent.id : text_of(agent.id),
+                                real(agent.radius_cells), real(agent.speed_cells_per_s));
+  for (std::size_t i = 0; i < trajectory.motions.size(); ++i) {
+    if (i > 0) out += ", ";
+    append_motion(out, trajectory.motions[i]);
   }
+  return out + "]}";
 }
 
-void append_options(std::string& out, const PlannerOptions& options) {
-  out += ",\n  \"ssi\": ";
-  append_ssi(out, options.ssi_s);
-  out += ",\n  \"reschedule\": \"" + std::string(name(options.rescheduling)) + "\"";
-  out += ",\n  \"initial_order\": \"" + std::string(name(options.order)) + "\"";
-  out += std::string(",\n  \"any_angle\": ") + (options.any_angle ? "true" : "false");
-  out += ",\n  \"connectedness\": " + std::to_string(options.connectedness);
-  out += ",\n  \"seed\": " + std::to_string(options.seed);
-  if (options.weight != 1) {
-    out += ",\n  \"weight\": ";
-    append_number(out, options.weight);
-  }
+void add_options(Json& out, const PlannerOptions& options) {
+  out["ssi"] = ssi(options.ssi_s);
+  out["reschedule"] = name(options.rescheduling);
+  out["initial_order"] = name(options.order);
+  out["any_angle"] = options.any_angle;
+  out["connectedness"] = options.connectedness;
+  out["seed"] = options.seed;
+  if (options.weight != 1) out["weight"] = number(options.weight);
   const MotionRules& rules = options.rules;
-  if (rules.turns) out += ",\n  \"turns\": true";
-  const auto append_margin = [&out](const char* key, double margin) {
-    if (margin <= 0) return;
-    out += std::string(",\n  \"") + key + "\": ";
-    append_number(out, margin);
+  if (rules.turns) out["turns"] = true;
+  const auto add_margin = [&out](const char* key, double margin) {
+    if (margin > 0) out[key] = number(margin);
   };
-  append_margin("wait_before_move", rules.wait_before_move_s);
-  append_margin("inflate_distance", rules.inflate_distance_cells);
-  append_margin("inflate_time", rules.inflate_time_s);
+  add_margin("wait_before_move", rules.wait_before_move_s);
+  add_margin("inflate_distance", rules.inflate_distance_cells);
+  add_margin("inflate_time", rules.inflate_time_s);
 }
 
-void append_indices(std::string& out, const std::vector<AgentIndex>& agents) {
-  out += '[';
-  for (std::size_t i = 0; i < agents.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(agents[i]);
-  out += ']';
+Json costs(double flowtime, double makespan) {
+  return {{"flowtime", number(flowtime)}, {"makespan", number(makespan)}};
 }
 
-/// A list with one element a line.
-template <class Elements, class Append>
-void append_lines(std::string& out, const Elements& elements, Append&& append) {
-  out += '[';
-  bool first = true;
-  for (const auto& element : elements) {
-    out += first ? "\n    " : ",\n    ";
-    first = false;
-    append(element);
-  }
-  out += "\n  ]";
+Json step_of(const BestStep& step) {
+  return {{"kind", name(step.kind)},
+          {"ssi", ssi(step.ssi_s)},
+          {"status", name(step.status)},
+          {"tries", step.tries},
+          {"seconds", number(step.seconds)},
+          {"ended", number(step.ended_s)},
+          {"cost", step.cost ? costs(step.cost->flowtime_s, step.cost->makespan_s) : Json()}};
 }
 
-void append_ejections(std::string& out, const std::vector<EjectionRecord>& ejections) {
-  out += ",\n  \"ejections\": ";
-  append_lines(out, ejections, [&out](const EjectionRecord& record) {
-    out += "{\"failed\": " + std::to_string(record.failed) + ", \"ejected\": ";
-    append_indices(out, record.ejected);
-    out += '}';
-  });
-}
-
-void append_costs(std::string& out, double flowtime, double makespan) {
-  out += "{\"flowtime\": ";
-  append_number(out, flowtime);
-  out += ", \"makespan\": ";
-  append_number(out, makespan);
-  out += '}';
-}
-
-void append_steps(std::string& out, const std::vector<BestStep>& steps) {
-  out += ",\n  \"steps\": ";
-  append_lines(out, steps, [&out](const BestStep& step) {
-    out += "{\"kind\": \"" + std::string(name(step.kind)) + "\", \"ssi\": ";
-    append_ssi(out, step.ssi_s);
-    out += ", \"status\": \"" + std::string(name(step.status)) + "\"";
-    out += ", \"tries\": " + std::to_string(step.tries) + ", \"seconds\": ";
-    append_number(out, step.seconds);
-    out += ", \"ended\": ";
-    append_number(out, step.ended_s);
-    out += ", \"cost\": ";
-    if (step.cost) {
-      append_costs(out, step.cost->flowtime_s, step.cost->makespan_s);
-    } else {
-      out += "null";
-    }
-    out += '}';
-  });
-}
-
-void append_improvement(std::string& out, const ImprovementLog& log) {
-  out += ",\n  \"improvement\": {\"objective\": ";
-  append_string(out, format_objective(log.objective));
-  out += ", \"iterations\": " + std::to_string(log.iterations);
-  out += ", \"improvements\": " + std::to_string(log.improvements);
-  out += std::string(", \"ssi_promise\": ") + (log.keeps_promise ? "true" : "false");
-  out += ", \"lower_bound\": ";
-  append_costs(out, log.bound.flowtime_s, log.bound.makespan_s);
+Json improvement_of(const ImprovementLog& log) {
   const PlanCost& last = log.curve.back().cost;
-  out += ", \"gap\": ";
-  append_costs(out, gap(last.flowtime_s, log.bound.flowtime_s), gap(last.makespan_s, log.bound.makespan_s));
-  out += ", \"curve\": ";
-  append_lines(out, log.curve, [&out](const ProgressPoint& point) {
-    out += "{\"seconds\": ";
-    append_number(out, point.seconds);
-    out += ", \"iteration\": " + std::to_string(point.iteration) + ", \"flowtime\": ";
-    append_number(out, point.cost.flowtime_s);
-    out += ", \"makespan\": ";
-    append_number(out, point.cost.makespan_s);
-    out += '}';
-  });
-  out += '}';
+  Json out = {
+      {"objective", format_objective(log.objective)},
+      {"iterations", log.iterations},
+      {"improvements", log.improvements},
+      {"ssi_promise", log.keeps_promise},
+      {"lower_bound", costs(log.bound.flowtime_s, log.bound.makespan_s)},
+      {"gap", costs(gap(last.flowtime_s, log.bound.flowtime_s), gap(last.makespan_s, log.bound.makespan_s))},
+      {"curve", Json::array()}};
+  for (const ProgressPoint& point : log.curve) {
+    out["curve"].push_back({{"seconds", number(point.seconds)},
+                            {"iteration", point.iteration},
+                            {"flowtime", number(point.cost.flowtime_s)},
+                            {"makespan", number(point.cost.makespan_s)}});
+  }
+  return out;
+}
+
+/// One key a line; lists of objects have a line for each.
+std::string laid_out(const Json& document, const std::vector<std::string>& trajectories) {
+  std::string out = "{";
+  for (const auto& [key, value] : document.items()) {
+    std::vector<std::string> objects;
+    if (value.is_array() && !value.empty() && value[0].is_object()) {
+      for (const Json& object : value) objects.push_back(text_of(object));
+    }
+    const std::vector<std::string>& lines = key == "trajectories" ? trajectories : objects;
+    out += fmt::format("{}\n  \"{}\": ", out.size() > 1 ? "," : "", key);
+    out += lines.empty() ? text_of(value) : fmt::format("[\n    {}\n  ]", fmt::join(lines, ",\n    "));
+  }
+  return out + "\n}\n";
 }
 
 }  // namespace
@@ -197,47 +138,31 @@ void append_improvement(std::string& out, const ImprovementLog& log) {
 std::string solution_to_json(const Instance& instance, const SolutionDocument& document) {
   const std::vector<Trajectory>& trajectories = document.solution.trajectories;
   PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
-  std::string out = "{\n  \"status\": ";
-  append_string(out, document.status);
-  out += std::string(",\n  \"valid\": ") + (document.valid ? "true" : "false");
-  out += ",\n  \"robots\": " + std::to_string(instance.agents.size());
-  out += ",\n  \"makespan\": ";
-  append_number(out, document.makespan_s);
-  out += ",\n  \"flowtime\": ";
-  append_number(out, document.flowtime_s);
-  out += ",\n  \"tries\": " + std::to_string(document.tries);
-  out += ",\n  \"expansions\": " + std::to_string(document.expansions);
-  out += ",\n  \"generations\": " + std::to_string(document.generations);
-  out += ",\n  \"planning_seconds\": ";
-  append_number(out, document.planning_seconds);
-  out += ",\n  \"plan_hash\": ";
-  if (document.plan_hash.empty()) {
-    out += "null";
-  } else {
-    append_string(out, document.plan_hash);
-  }
-  out += ",\n  \"order\": ";
-  append_indices(out, document.order);
-  out += ",\n  \"trajectories\": [";
+  Json out = {{"status", document.status},
+              {"valid", document.valid},
+              {"robots", instance.agents.size()},
+              {"makespan", number(document.makespan_s)},
+              {"flowtime", number(document.flowtime_s)},
+              {"tries", document.tries},
+              {"expansions", document.expansions},
+              {"generations", document.generations},
+              {"planning_seconds", number(document.planning_seconds)},
+              {"plan_hash", document.plan_hash.empty() ? Json() : Json(document.plan_hash)},
+              {"order", document.order},
+              {"trajectories", Json::array()}};
+  std::vector<std::string> lines;
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    out += i > 0 ? ",\n    " : "\n    ";
-    append_trajectory(out, instance.agents[i], trajectories[i]);
+    lines.push_back(trajectory_text(instance.agents[i], trajectories[i]));
   }
-  out += trajectories.empty() ? "]" : "\n  ]";
-  if (document.options) append_options(out, *document.options);
-  if (!document.made_by.empty()) {
-    out += ",\n  \"made_by\": ";
-    append_string(out, document.made_by);
+  if (document.options) add_options(out, *document.options);
+  if (!document.made_by.empty()) out["made_by"] = document.made_by;
+  if (document.ssi_kept_s) out["ssi_kept"] = ssi(*document.ssi_kept_s);
+  for (const EjectionRecord& record : document.ejections) {
+    out["ejections"].push_back({{"failed", record.failed}, {"ejected", record.ejected}});
   }
-  if (document.ssi_kept_s) {
-    out += ",\n  \"ssi_kept\": ";
-    append_ssi(out, *document.ssi_kept_s);
-  }
-  if (!document.ejections.empty()) append_ejections(out, document.ejections);
-  if (!document.steps.empty()) append_steps(out, document.steps);
-  if (document.improvement) append_improvement(out, *document.improvement);
-  out += "\n}\n";
-  return out;
+  for (const BestStep& step : document.steps) out["steps"].push_back(step_of(step));
+  if (document.improvement) out["improvement"] = improvement_of(*document.improvement);
+  return laid_out(out, lines);
 }
 
 }  // namespace sipplab

@@ -20,52 +20,53 @@ constexpr NumberRange kTimes{0, std::numeric_limits<double>::max(), "a number fr
 /// Counts are read as doubles; up to here each is exact.
 constexpr NumberRange kCounts{0, 0x1p53, "a number from 0"};
 
-void append_summary(std::string& out, const Instance& instance, const SolutionDocument& document) {
-  out += "\t\t<summary";
-  append_attribute(out, "runtime", document.planning_seconds);
-  append_attribute(out, "tries", static_cast<std::int64_t>(document.tries));
+void add_summary(xml_node log, const Instance& instance, const SolutionDocument& document) {
+  xml_node node = log.append_child("summary");
+  const auto add_count = [&node](const char* name, std::uint64_t count) {
+    node.append_attribute(name) = static_cast<unsigned long long>(count);
+  };
+  add_attribute(node, "runtime", document.planning_seconds);
+  add_count("tries", document.tries);
   if (document.status == "solved") {
-    append_attribute(out, "agentssolved", std::to_string(instance.agents.size()) + " (100%)");
+    add_attribute(node, "agentssolved", std::to_string(instance.agents.size()) + " (100%)");
   }
-  if (document.flowtime_s) append_attribute(out, "flowtime", *document.flowtime_s);
-  if (document.makespan_s) append_attribute(out, "makespan", *document.makespan_s);
-  append_attribute(out, "status", std::string_view(document.status));
-  append_attribute(out, "valid", std::string_view(document.valid ? "true" : "false"));
-  append_attribute(out, "expansions", static_cast<std::int64_t>(document.expansions));
-  append_attribute(out, "generations", static_cast<std::int64_t>(document.generations));
-  if (!document.plan_hash.empty()) append_attribute(out, "planhash", std::string_view(document.plan_hash));
-  if (document.options) {
-    append_attribute(out, "seed", std::string_view(std::to_string(document.options->seed)));
-  }
-  if (!document.made_by.empty()) append_attribute(out, "madeby", std::string_view(document.made_by));
-  if (document.ssi_kept_s) {
-    append_attribute(out, "ssikept", std::string_view(format_ssi(*document.ssi_kept_s)));
-  }
-  out += "/>\n";
+  if (document.flowtime_s) add_attribute(node, "flowtime", *document.flowtime_s);
+  if (document.makespan_s) add_attribute(node, "makespan", *document.makespan_s);
+  add_attribute(node, "status", document.status);
+  node.append_attribute("valid") = document.valid;
+  add_count("expansions", document.expansions);
+  add_count("generations", document.generations);
+  if (!document.plan_hash.empty()) add_attribute(node, "planhash", document.plan_hash);
+  if (document.options) add_count("seed", document.options->seed);
+  if (!document.made_by.empty()) add_attribute(node, "madeby", document.made_by);
+  if (document.ssi_kept_s) add_attribute(node, "ssikept", format_ssi(*document.ssi_kept_s));
 }
 
-void append_agent(std::string& out, const Agent& agent, const Trajectory& trajectory, bool with_headings) {
-  out += "\t\t<agent";
-  append_attribute(out, "id", std::string_view(agent.id));
-  append_attribute(out, "start.x", std::int64_t{agent.start.x});
-  append_attribute(out, "start.y", std::int64_t{agent.start.y});
-  if (with_headings) append_attribute(out, "start.heading", agent.start_heading_deg);
-  append_attribute(out, "goal.x", std::int64_t{agent.goal.x});
-  append_attribute(out, "goal.y", std::int64_t{agent.goal.y});
+void add_order(xml_node log, const std::vector<AgentIndex>& order) {
+  std::string text;
+  for (const AgentIndex agent : order) text += (text.empty() ? "" : " ") + std::to_string(agent);
+  add_text(log, "order", text);
+}
+
+void add_trajectory(xml_node log, const Agent& agent, const Trajectory& trajectory, bool with_headings) {
+  xml_node node = log.append_child("agent");
+  add_attribute(node, "id", agent.id);
+  node.append_attribute("start.x") = agent.start.x;
+  node.append_attribute("start.y") = agent.start.y;
+  if (with_headings) add_attribute(node, "start.heading", agent.start_heading_deg);
+  node.append_attribute("goal.x") = agent.goal.x;
+  node.append_attribute("goal.y") = agent.goal.y;
   if (with_headings) {
-    append_attribute(out, "goal.heading",
-                     agent.goal_heading_deg ? format_real(*agent.goal_heading_deg) : "whatever");
+    add_attribute(node, "goal.heading",
+                  agent.goal_heading_deg ? format_real(*agent.goal_heading_deg) : "whatever");
   }
-  append_attribute(out, "size", agent.radius_cells);
-  append_attribute(out, "movespeed", agent.speed_cells_per_s);
-  append_attribute(out, "rotationspeed", agent.rotation_speed);
-  out += ">\n\t\t\t<path";
-  append_attribute(out, "pathfound", std::string_view("true"));
-  append_attribute(out, "duration", trajectory.arrival_s());
-  out += ">\n";
-  append_sections(out, trajectory, "\t\t\t\t",
-                  with_headings ? std::optional(agent.start_heading_deg) : std::nullopt);
-  out += "\t\t\t</path>\n\t\t</agent>\n";
+  add_attribute(node, "size", agent.radius_cells);
+  add_attribute(node, "movespeed", agent.speed_cells_per_s);
+  add_attribute(node, "rotationspeed", agent.rotation_speed);
+  xml_node path = node.append_child("path");
+  path.append_attribute("pathfound") = true;
+  add_attribute(path, "duration", trajectory.arrival_s());
+  add_sections(path, trajectory, with_headings ? std::optional(agent.start_heading_deg) : std::nullopt);
 }
 
 std::uint64_t read_count(XmlReader& reader, xml_node node, const char* name) {
@@ -164,23 +165,18 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
 std::string solution_to_xml(const Instance& instance, const SolutionDocument& document) {
   const std::vector<Trajectory>& trajectories = document.solution.trajectories;
   PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
-  std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
-  append_instance_xml(out, instance);
-  if (document.options) append_options_xml(out, *document.options);
-  out += "\t<log>\n";
-  append_summary(out, instance, document);
-  out += "\t\t<order>";
-  for (std::size_t i = 0; i < document.order.size(); ++i) {
-    if (i > 0) out += ' ';
-    out += std::to_string(document.order[i]);
-  }
-  out += "</order>\n";
+  pugi::xml_document file;
+  xml_node root = file.append_child("root");
+  add_instance(root, instance);
+  if (document.options) add_options(root, *document.options);
+  xml_node log = root.append_child("log");
+  add_summary(log, instance, document);
+  add_order(log, document.order);
   const bool with_headings = has_turns(document.solution);
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    append_agent(out, instance.agents[i], trajectories[i], with_headings);
+    add_trajectory(log, instance.agents[i], trajectories[i], with_headings);
   }
-  out += "\t</log>\n</root>\n";
-  return out;
+  return file_text(file);
 }
 
 Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,

@@ -8,42 +8,40 @@ namespace sipplab {
 
 namespace {
 
-/// A whole file with what `append` appends.
-template <class Append>
-std::string whole_file(const Append& append) {
-  std::string out = "<?xml version=\"1.0\" ?>\n<root>\n";
-  append(out);
-  out += "</root>\n";
-  return out;
+/// A whole file with what `add` adds below the root.
+template <class Add>
+std::string whole_file(const Add& add) {
+  pugi::xml_document document;
+  add(document.append_child("root"));
+  return file_text(document);
 }
 
 }  // namespace
 
 std::string write_instance_xml(const Instance& instance) {
-  return whole_file([&](std::string& out) { append_instance_xml(out, instance); });
+  return whole_file([&](pugi::xml_node root) { add_instance(root, instance); });
 }
 
 std::string write_task_xml(const Instance& instance) {
-  return whole_file([&](std::string& out) { append_agents_xml(out, instance); });
+  return whole_file([&](pugi::xml_node root) { add_agents(root, instance); });
 }
 
 std::string write_map_xml(const GridMap& map) {
-  return whole_file([&](std::string& out) { append_map_xml(out, map); });
+  return whole_file([&](pugi::xml_node root) { add_map(root, map); });
 }
 
 std::string write_obstacles_xml(const Instance& instance) {
-  return whole_file([&](std::string& out) { append_obstacles_xml(out, instance); });
+  return whole_file([&](pugi::xml_node root) { add_obstacles(root, instance); });
 }
 
 std::string write_config_xml(const PlannerOptions& options, const std::string& folder,
                              const std::string& file) {
-  return whole_file([&](std::string& out) {
-    append_options_xml(out, options);
-    out += "\t<options>\n\t\t<loglevel>1</loglevel>\n\t\t<logpath>";
-    append_escaped(out, folder);
-    out += "</logpath>\n\t\t<logfilename>";
-    append_escaped(out, file);
-    out += "</logfilename>\n\t</options>\n";
+  return whole_file([&](pugi::xml_node root) {
+    add_options(root, options);
+    pugi::xml_node node = root.append_child("options");
+    add_text(node, "loglevel", "1");
+    add_text(node, "logpath", folder);
+    add_text(node, "logfilename", file);
   });
 }
 

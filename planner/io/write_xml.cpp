@@ -9,45 +9,40 @@
 namespace sipplab {
 namespace {
 
-void append_agent(std::string& out, const Agent& agent) {
-  out += "\t\t<agent";
-  append_attribute(out, "id", agent.id);
-  append_attribute(out, "start.x", std::int64_t{agent.start.x});
-  append_attribute(out, "start.y", std::int64_t{agent.start.y});
-  append_attribute(out, "goal.x", std::int64_t{agent.goal.x});
-  append_attribute(out, "goal.y", std::int64_t{agent.goal.y});
+using pugi::xml_node;
+
+void add_place(xml_node node, const char* x, const char* y, Cell cell) {
+  node.append_attribute(x) = cell.x;
+  node.append_attribute(y) = cell.y;
+}
+
+void add_agent(xml_node parent, const Agent& agent) {
+  xml_node node = parent.append_child("agent");
+  add_attribute(node, "id", agent.id);
+  add_place(node, "start.x", "start.y", agent.start);
+  add_place(node, "goal.x", "goal.y", agent.goal);
   const Agent defaults;
-  if (agent.radius_cells != defaults.radius_cells) append_attribute(out, "size", agent.radius_cells);
-  if (agent.speed_cells_per_s != defaults.speed_cells_per_s) {
-    append_attribute(out, "movespeed", agent.speed_cells_per_s);
-  }
-  if (agent.rotation_speed != defaults.rotation_speed) {
-    append_attribute(out, "rotationspeed", agent.rotation_speed);
-  }
-  if (agent.start_heading_deg != defaults.start_heading_deg) {
-    append_attribute(out, "start.heading", agent.start_heading_deg);
-  }
-  if (agent.goal_heading_deg) append_attribute(out, "goal.heading", *agent.goal_heading_deg);
-  out += "/>\n";
+  const auto add_other = [&node](const char* name, double value, double usual) {
+    if (value != usual) add_attribute(node, name, value);
+  };
+  add_other("size", agent.radius_cells, defaults.radius_cells);
+  add_other("movespeed", agent.speed_cells_per_s, defaults.speed_cells_per_s);
+  add_other("rotationspeed", agent.rotation_speed, defaults.rotation_speed);
+  add_other("start.heading", agent.start_heading_deg, defaults.start_heading_deg);
+  if (agent.goal_heading_deg) add_attribute(node, "goal.heading", *agent.goal_heading_deg);
 }
 
-void append_obstacle(std::string& out, const DynamicObstacle& obstacle) {
-  out += "\t\t<obstacle";
-  append_attribute(out, "id", obstacle.id);
-  append_attribute(out, "size", obstacle.radius_cells);
-  out += ">\n";
-  if (obstacle.trajectory.motions.empty()) {
-    // An obstacle that never moves has a section all the same: it says where it is.
-    append_sections(
-        out, {obstacle.trajectory.start, {{0, 0, obstacle.trajectory.start, obstacle.trajectory.start}}},
-        "\t\t\t");
-  } else {
-    append_sections(out, obstacle.trajectory, "\t\t\t");
-  }
-  out += "\t\t</obstacle>\n";
+void add_obstacle(xml_node parent, const DynamicObstacle& obstacle) {
+  xml_node node = parent.append_child("obstacle");
+  add_attribute(node, "id", obstacle.id);
+  add_attribute(node, "size", obstacle.radius_cells);
+  const Cell start = obstacle.trajectory.start;
+  // An obstacle that never moves has a section all the same: it says where it is.
+  add_sections(node, obstacle.trajectory.motions.empty() ? Trajectory{start, {{0, 0, start, start}}}
+                                                         : obstacle.trajectory);
 }
 
-std::string_view published_name(InitialOrder order) {
+const char* published_name(InitialOrder order) {
   switch (order) {
     case InitialOrder::kShortestFirst:
       return "shortest_first";
@@ -61,7 +56,7 @@ std::string_view published_name(InitialOrder order) {
   return "fifo";
 }
 
-std::string_view published_name(Rescheduling rescheduling) {
+const char* published_name(Rescheduling rescheduling) {
   switch (rescheduling) {
     case Rescheduling::kDeterministic:
       return "rulebased";
@@ -75,137 +70,111 @@ std::string_view published_name(Rescheduling rescheduling) {
   return "no";
 }
 
-void append_element(std::string& out, const char* name, std::string_view text) {
-  out += std::string("\t\t<") + name + ">";
-  out += text;
-  out += std::string("</") + name + ">\n";
-}
+/// Takes what pugixml writes.
+struct TextWriter final : pugi::xml_writer {
+  std::string text;
+  void write(const void* data, std::size_t size) override {
+    text.append(static_cast<const char*>(data), size);
+  }
+};
 
 }  // namespace
 
-void append_escaped(std::string& out, std::string_view text) {
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += "&#" + std::to_string(static_cast<int>(c)) + ";";  // readers turn a bare line break into a blank
-    } else {
-      out += c;
-    }
-  }
+void add_attribute(xml_node node, const char* name, const std::string& value) {
+  node.append_attribute(name) = value.c_str();
 }
 
-void append_attribute(std::string& out, std::string_view name, std::string_view value) {
-  out += ' ';
-  out += name;
-  out += "=\"";
-  append_escaped(out, value);
-  out += '"';
+void add_attribute(xml_node node, const char* name, double value) {
+  node.append_attribute(name) = format_real(value).c_str();
 }
 
-void append_attribute(std::string& out, std::string_view name, double value) {
-  append_attribute(out, name, std::string_view(format_real(value)));
+void add_text(xml_node parent, const char* name, const std::string& text) {
+  parent.append_child(name).text() = text.c_str();
 }
 
-void append_attribute(std::string& out, std::string_view name, std::int64_t value) {
-  append_attribute(out, name, std::string_view(std::to_string(value)));
+void add_agents(xml_node root, const Instance& instance) {
+  xml_node agents = root.append_child("agents");
+  agents.append_attribute("number") = static_cast<unsigned long long>(instance.agents.size());
+  for (const Agent& agent : instance.agents) add_agent(agents, agent);
 }
 
-void append_agents_xml(std::string& out, const Instance& instance) {
-  out += "\t<agents";
-  append_attribute(out, "number", static_cast<std::int64_t>(instance.agents.size()));
-  out += ">\n";
-  for (const Agent& agent : instance.agents) append_agent(out, agent);
-  out += "\t</agents>\n";
-}
-
-void append_map_xml(std::string& out, const GridMap& map) {
-  out += "\t<map type=\"grid\">\n\t\t<grid";
-  append_attribute(out, "width", std::int64_t{map.width()});
-  append_attribute(out, "height", std::int64_t{map.height()});
-  out += ">\n";
-  out.reserve(out.size() + 2 * map.cell_count() + 16 * static_cast<std::size_t>(map.height()));
+void add_map(xml_node root, const GridMap& map) {
+  xml_node node = root.append_child("map");
+  node.append_attribute("type") = "grid";
+  xml_node grid = node.append_child("grid");
+  grid.append_attribute("width") = map.width();
+  grid.append_attribute("height") = map.height();
   for (std::int32_t y = 0; y < map.height(); ++y) {
-    out += "\t\t\t<row>";
+    std::string row;
     for (std::int32_t x = 0; x < map.width(); ++x) {
-      if (x > 0) out += ' ';
-      out += map.is_blocked({x, y}) ? '1' : '0';
+      if (x > 0) row += ' ';
+      row += map.is_blocked({x, y}) ? '1' : '0';
     }
-    out += "</row>\n";
+    add_text(grid, "row", row);
   }
-  out += "\t\t</grid>\n\t</map>\n";
 }
 
-void append_obstacles_xml(std::string& out, const Instance& instance) {
+void add_obstacles(xml_node root, const Instance& instance) {
   if (instance.obstacles.empty()) return;
-  out += "\t<dynamicobstacles>\n";
-  for (const DynamicObstacle& obstacle : instance.obstacles) append_obstacle(out, obstacle);
-  out += "\t</dynamicobstacles>\n";
+  xml_node obstacles = root.append_child("dynamicobstacles");
+  for (const DynamicObstacle& obstacle : instance.obstacles) add_obstacle(obstacles, obstacle);
 }
 
-void append_instance_xml(std::string& out, const Instance& instance) {
-  append_agents_xml(out, instance);
-  append_map_xml(out, instance.map);
-  append_obstacles_xml(out, instance);
+void add_instance(xml_node root, const Instance& instance) {
+  add_agents(root, instance);
+  add_map(root, instance.map);
+  add_obstacles(root, instance);
 }
 
-void append_options_xml(std::string& out, const PlannerOptions& options) {
+void add_options(xml_node root, const PlannerOptions& options) {
   const auto time = [](double time_s, const char* infinite) {
     return std::isinf(time_s) ? std::string(infinite) : format_real(time_s);
   };
-  out += "\t<algorithm>\n";
-  append_element(out, "allowanyangle", options.any_angle ? "true" : "false");
-  append_element(out, "connectedness", std::to_string(options.connectedness));
-  if (options.weight != 1) append_element(out, "weight", format_real(options.weight));
-  append_element(out, "prioritization", published_name(options.order));
-  append_element(out, "rescheduling", published_name(options.rescheduling));
-  append_element(out, "startsafeinterval", time(options.ssi_s, "infinity"));
-  append_element(out, "timelimit", time(options.time_limit_s, "-1"));
+  xml_node node = root.append_child("algorithm");
+  add_text(node, "allowanyangle", options.any_angle ? "true" : "false");
+  add_text(node, "connectedness", std::to_string(options.connectedness));
+  if (options.weight != 1) add_text(node, "weight", format_real(options.weight));
+  add_text(node, "prioritization", published_name(options.order));
+  add_text(node, "rescheduling", published_name(options.rescheduling));
+  add_text(node, "startsafeinterval", time(options.ssi_s, "infinity"));
+  add_text(node, "timelimit", time(options.time_limit_s, "-1"));
   const MotionRules& rules = options.rules;
-  if (rules.turns) append_element(out, "planforturns", "true");
-  const auto append_margin = [&out](const char* name, double margin) {
-    if (margin > 0) append_element(out, name, format_real(margin));
+  if (rules.turns) add_text(node, "planforturns", "true");
+  const auto add_margin = [&node](const char* name, double margin) {
+    if (margin > 0) add_text(node, name, format_real(margin));
   };
-  append_margin("waitbeforemove", rules.wait_before_move_s);
-  append_margin("inflatecollisionintervals", rules.inflate_distance_cells);
-  append_margin("inflatecollisiontime", rules.inflate_time_s);
-  out += "\t</algorithm>\n";
+  add_margin("waitbeforemove", rules.wait_before_move_s);
+  add_margin("inflatecollisionintervals", rules.inflate_distance_cells);
+  add_margin("inflatecollisiontime", rules.inflate_time_s);
 }
 
-void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent,
-                     std::optional<double> start_heading_deg) {
-  std::int64_t id = 0;
+void add_sections(xml_node parent, const Trajectory& trajectory, std::optional<double> start_heading_deg) {
+  int id = 0;
   double now_deg = start_heading_deg.value_or(0);
   for (const TimedMotion& motion : trajectory.motions) {
-    out += indent;
-    out += "<section";
-    append_attribute(out, "id", id++);
-    append_attribute(out, "start.x", std::int64_t{motion.from.x});
-    append_attribute(out, "start.y", std::int64_t{motion.from.y});
+    xml_node node = parent.append_child("section");
+    node.append_attribute("id") = id++;
+    add_place(node, "start.x", "start.y", motion.from);
     if (!motion.is_wait()) now_deg = heading_deg(motion.from, motion.to);
     const double before_deg = now_deg;
-    if (start_heading_deg) append_attribute(out, "start.heading", before_deg);
-    append_attribute(out, "goal.x", std::int64_t{motion.to.x});
-    append_attribute(out, "goal.y", std::int64_t{motion.to.y});
+    if (start_heading_deg) add_attribute(node, "start.heading", before_deg);
+    add_place(node, "goal.x", "goal.y", motion.to);
     now_deg = motion.turn_to_deg.value_or(now_deg);
-    if (start_heading_deg) append_attribute(out, "goal.heading", now_deg);
+    if (start_heading_deg) add_attribute(node, "goal.heading", now_deg);
     // Else it would be read as a wait.
-    if (start_heading_deg && motion.is_turn() && now_deg == before_deg) {
-      append_attribute(out, "turn", std::string_view("true"));
-    }
+    if (start_heading_deg && motion.is_turn() && now_deg == before_deg) node.append_attribute("turn") = true;
     // Times may be any numbers here: a wrong solution is written as it is.
     const double duration_s = motion.end_s - motion.begin_s;
-    append_attribute(out, "duration", std::isfinite(duration_s) ? duration_s : 0.0);
-    append_attribute(out, "begin", motion.begin_s);
-    append_attribute(out, "end", motion.end_s);
-    out += "/>\n";
+    add_attribute(node, "duration", std::isfinite(duration_s) ? duration_s : 0.0);
+    add_attribute(node, "begin", motion.begin_s);
+    add_attribute(node, "end", motion.end_s);
   }
+}
+
+std::string file_text(const pugi::xml_document& document) {
+  TextWriter writer;
+  document.save(writer, "\t", pugi::format_indent, pugi::encoding_utf8);
+  return std::move(writer.text);
 }
 
 }  // namespace sipplab

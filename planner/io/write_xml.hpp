@@ -1,7 +1,8 @@
-// Pieces of AA-SIPP(m)'s XML that instances and solutions have in common.
+// Pieces of AA-SIPP(m)'s XML that instances and solutions have in common, as elements of pugixml.
 #pragma once
 
 #include <optional>
+#include <pugixml.hpp>
 #include <string>
 #include <string_view>
 
@@ -11,26 +12,28 @@
 
 namespace sipplab {
 
-/// The text with everything escaped that would not survive reading.
-void append_escaped(std::string& out, std::string_view text);
+/// Attributes. Real numbers are written in the shortest text that reads back as the same value.
+void add_attribute(pugi::xml_node node, const char* name, const std::string& value);
+void add_attribute(pugi::xml_node node, const char* name, double value);
 
-/// ` name="value"`, escaped.
-void append_attribute(std::string& out, std::string_view name, std::string_view value);
-void append_attribute(std::string& out, std::string_view name, double value);
-void append_attribute(std::string& out, std::string_view name, std::int64_t value);
+/// A child that holds a text.
+void add_text(pugi::xml_node parent, const char* name, const std::string& text);
 
-/// Each one tab deep: <agents>; <map>; <dynamicobstacles>, where there are any; all three.
-void append_agents_xml(std::string& out, const Instance& instance);
-void append_map_xml(std::string& out, const GridMap& map);
-void append_obstacles_xml(std::string& out, const Instance& instance);
-void append_instance_xml(std::string& out, const Instance& instance);
+/// Children of <root>: <agents>; <map>; <dynamicobstacles>, where there are any; all three.
+void add_agents(pugi::xml_node root, const Instance& instance);
+void add_map(pugi::xml_node root, const GridMap& map);
+void add_obstacles(pugi::xml_node root, const Instance& instance);
+void add_instance(pugi::xml_node root, const Instance& instance);
 
-/// <algorithm>, one tab deep. Limits but that of time have no place there.
-void append_options_xml(std::string& out, const PlannerOptions& options);
+/// <algorithm>. Limits but that of time have no place there.
+void add_options(pugi::xml_node root, const PlannerOptions& options);
 
 /// One <section> a motion, each with its duration and with begin and end, exact; with the
 /// headings at both ends where that at the beginning is given.
-void append_sections(std::string& out, const Trajectory& trajectory, std::string_view indent,
-                     std::optional<double> start_heading_deg = std::nullopt);
+void add_sections(pugi::xml_node parent, const Trajectory& trajectory,
+                  std::optional<double> start_heading_deg = std::nullopt);
+
+/// The text of a file, one element a line.
+std::string file_text(const pugi::xml_document& document);
 
 }  // namespace sipplab
