@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "bench/present/numbers.hpp"
-#include "planner/io/text.hpp"
+#include "planner/io/svg_canvas.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -103,28 +103,26 @@ class Drawing {
   }
 
   std::string svg(SvgUse use) {
-    text_ = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"sans-serif\" font-size=\"11\"{2} role=\"img\">\n<title>{3}</title>\n",
-        chart_.width, chart_.height, use == SvgUse::kFile ? " style=\"background:#fff;color:#222\"" : "",
-        xml_escaped(chart_.title));
-    if (use == SvgUse::kFile) {
-      text_ += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", chart_.width, chart_.height);
-    }
+    const std::string page = use == SvgUse::kFile ? " style=\"background:#fff;color:#222\"" : "";
+    canvas_.open_page(chart_.width, chart_.height, "font-family=\"sans-serif\" font-size=\"11\"" + page);
+    canvas_.tooltip(chart_.title);
+    if (use == SvgUse::kFile) canvas_ << "\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
+    canvas_ << "\n";
     // A long title becomes smaller rather than cut off.
     const double space = chart_.width - 2 * kTitleMargin;
     const double size =
         std::min(kTitleSize, space / (kBoldWidth * static_cast<double>(chart_.title.size() + 1)));
-    label(kTitleMargin, 20, chart_.title, "start",
+    label({kTitleMargin, 20}, chart_.title, "start",
           fmt::format(" font-weight=\"bold\" font-size=\"{:.1f}\"", size));
     if (x_.empty()) {
-      label(chart_.width / 2.0, chart_.height / 2.0, "nothing to show", "middle", "");
+      label({chart_.width / 2.0, chart_.height / 2.0}, "nothing to show", "middle");
     } else {
       axes();
       for (const ChartLine& line : chart_.lines) draw(line);
       legend();
     }
-    return text_ + "</svg>\n";
+    canvas_ << "</svg>\n";
+    return canvas_.take();
   }
 
  private:
@@ -149,22 +147,20 @@ class Drawing {
     return bottom - std::clamp(share, 0.0, 1.0) * (bottom - kTop);
   }
 
-  void label(double x, double y, const std::string& words, const char* anchor, const std::string& more) {
-    text_ +=
-        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"currentColor\"{}>{}</text>\n",
-                    x, y, anchor, more, xml_escaped(words));
+  void label(Vec2 at, const std::string& words, const char* anchor, const std::string& more = "") {
+    canvas_.text(at, fmt::format("text-anchor=\"{}\" fill=\"currentColor\"{}", anchor, more), words);
+    canvas_ << "\n";
   }
-  void rule(double x1, double y1, double x2, double y2, const char* more) {
-    text_ += fmt::format(
-        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"currentColor\"{}/>\n", x1, y1,
-        x2, y2, more);
+  void rule(Vec2 from, Vec2 to, const char* more = "") {
+    canvas_.line(from, to, std::string("stroke=\"currentColor\"") + more);
+    canvas_ << "\n";
   }
 
   void axes() {
     const double bottom = chart_.height - kBottom;
     for (const double tick : chart_.log_y ? log_ticks(y_) : linear_ticks(y_)) {
-      rule(kLeft, to_y(tick), right_, to_y(tick), " stroke-opacity=\"0.15\"");
-      label(kLeft - 6, to_y(tick) + 4, short_number(tick), "end", "");
+      rule({kLeft, to_y(tick)}, {right_, to_y(tick)}, " stroke-opacity=\"0.15\"");
+      label({kLeft - 6, to_y(tick) + 4}, short_number(tick), "end");
     }
     std::vector<std::pair<double, std::string>> ticks = chart_.x_ticks;
     if (ticks.empty()) {
@@ -175,50 +171,45 @@ class Drawing {
     for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
       const auto& [value, words] = *tick;
       const double x = to_x(value);
-      rule(x, bottom, x, bottom + 4, "");
+      rule({x, bottom}, {x, bottom + 4});
       // The outermost labels stay within the picture.
       const double half = kCharWidth / 2 * static_cast<double>(words.size());
       const double middle = std::clamp(x, std::min(half, chart_.width / 2.0),
                                        std::max(chart_.width - half, chart_.width / 2.0));
       if (middle + half > room_ends) continue;
       room_ends = middle - half - kLabelGap;
-      label(middle, bottom + 16, words, "middle", "");
+      label({middle, bottom + 16}, words, "middle");
     }
-    rule(kLeft, bottom, right_, bottom, "");
-    rule(kLeft, kTop, kLeft, bottom, "");
-    label((kLeft + right_) / 2, chart_.height - 8, chart_.x_label, "middle", "");
+    rule({kLeft, bottom}, {right_, bottom});
+    rule({kLeft, kTop}, {kLeft, bottom});
+    label({(kLeft + right_) / 2, chart_.height - 8.0}, chart_.x_label, "middle");
     const std::string turned = fmt::format(" transform=\"rotate(-90 14 {0:.1f})\"", (kTop + bottom) / 2);
-    label(14, (kTop + bottom) / 2, chart_.y_label, "middle", turned);
+    label({14, (kTop + bottom) / 2}, chart_.y_label, "middle", turned);
   }
 
   void draw(const ChartLine& line) {
-    const char* colour = colour_of(line);
-    std::string path;
-    for (const auto& [x, y] : line.points) {
-      if (chart_.log_y && y <= 0) continue;
-      path += fmt::format("{}{:.1f},{:.1f}", path.empty() ? "" : " ", to_x(x), to_y(y));
-    }
     for (const ChartMark& mark : line.marks) {
-      text_ += fmt::format(
-          "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" stroke=\"#d55e00\" stroke-width=\"1.5\" "
-          "stroke-dasharray=\"3 3\"><title>{3}</title></line>\n",
-          to_x(mark.x), kTop, chart_.height - kBottom, xml_escaped(mark.text));
-      const bool left = to_x(mark.x) > (kLeft + right_) / 2;
-      label(to_x(mark.x) + (left ? -4 : 4), kTop + 10, mark.label, left ? "end" : "start",
-            " font-size=\"10\"");
+      const double x = to_x(mark.x);
+      canvas_.line({x, kTop}, {x, chart_.height - kBottom},
+                   "stroke=\"#d55e00\" stroke-width=\"1.5\" stroke-dasharray=\"3 3\"", mark.text);
+      const bool left = x > (kLeft + right_) / 2;
+      label({x + (left ? -4 : 4), kTop + 10}, mark.label, left ? "end" : "start", " font-size=\"10\"");
     }
-    text_ += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n", path,
-                         colour, line.dashed ? " stroke-dasharray=\"6 4\"" : "");
+    canvas_ << "<polyline points=\"";
+    for (const auto& [x, y] : line.points) {
+      if (!chart_.log_y || y > 0) canvas_ << to_x(x) << "," << to_y(y) << " ";
+    }
+    canvas_ << "\" fill=\"none\" " << stroke_of(line) << "/>\n";
     if (line.points.size() > kMostDots) return;
     // A ring can be seen around a dot in the same place.
     const std::string dot =
-        line.dashed ? fmt::format("r=\"4.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", colour)
-                    : fmt::format("r=\"2.5\" fill=\"{}\"", colour);
-    const std::string name = line.label.empty() ? "" : xml_escaped(line.label) + ": ";
+        line.dashed ? fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", colour_of(line))
+                    : fmt::format("fill=\"{}\"", colour_of(line));
+    const std::string name = line.label.empty() ? "" : line.label + ": ";
     for (const auto& [x, y] : line.points) {
       if (chart_.log_y && y <= 0) continue;
-      text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" {}><title>{}{}</title></circle>\n", to_x(x),
-                           to_y(y), dot, name, short_number(y));
+      canvas_.circle({to_x(x), to_y(y)}, line.dashed ? 4.5 : 2.5, dot, name + short_number(y));
+      canvas_ << "\n";
     }
   }
 
@@ -226,15 +217,16 @@ class Drawing {
     double y = kTop + 6;
     for (const ChartLine& line : chart_.lines) {
       if (line.label.empty()) continue;
-      text_ += fmt::format(
-          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
-          "stroke-width=\"2\"{}/>\n",
-          right_ + 8, y, right_ + 26, y, colour_of(line), line.dashed ? " stroke-dasharray=\"6 4\"" : "");
-      label(right_ + 30, y + 4, line.label, "start", "");
+      canvas_.line({right_ + 8, y}, {right_ + 26, y}, stroke_of(line));
+      label({right_ + 30, y + 4}, line.label, "start");
       y += kLegendLine;
     }
   }
 
+  static std::string stroke_of(const ChartLine& line) {
+    return fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", colour_of(line),
+                       line.dashed ? " stroke-dasharray=\"6 4\"" : "");
+  }
   static const char* colour_of(const ChartLine& line) {
     return kPalette[static_cast<std::size_t>(line.colour) % kPalette.size()];
   }
@@ -244,7 +236,7 @@ class Drawing {
   Range y_;
   std::size_t longest_label_ = 0;
   double right_ = 0;
-  std::string text_;
+  SvgCanvas canvas_;
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ Ink ink_for(std::size_t robots, double cell_px) {
 }
 
 std::string text_of(Cell cell) { return "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ")"; }
-std::string seconds(double time_s) { return short_number(time_s) + " s"; }
+std::string seconds(double time_s) { return short_decimal(time_s) + " s"; }
 
 class Painter {
  public:
@@ -71,7 +71,7 @@ class Painter {
         cell_px_(cell_side_px(instance.map)),
         ink_(ink_for(instance.agents.size(), cell_px_)),
         with_ids_(instance.agents.size() <= kMaxRobotsWithIds && cell_px_ >= kIdsFromCellSide),
-        canvas_(cell_px_) {
+        canvas_(cell_px_, 3) {
     // What has no trajectory rests at its start.
     for (std::size_t i = trajectories_.size(); i < instance.agents.size(); ++i) {
       trajectories_.push_back({instance.agents[i].start, {}});
@@ -122,11 +122,10 @@ class Painter {
   void open_page() {
     const double width = std::max(map_width_px() + 2 * kMargin, kMinPageWidth);
     const double height = kHeaderHeight + map_height_px() + kMargin + violation_list_height_px(report_);
-    canvas_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-labelledby=\"title description\"";
-    canvas_.attribute("width", width);
-    canvas_.attribute("height", height);
-    canvas_ << " viewBox=\"0 0 " << width << " " << height
-            << "\" font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\">\n<title id=\"title\">";
+    canvas_.open_page(width, height,
+                      "aria-labelledby=\"title description\" "
+                      "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\"");
+    canvas_ << "<title id=\"title\">";
     canvas_.label(options_.title);
     canvas_ << "</title>\n<desc id=\"description\">";
     canvas_.label(description());
@@ -163,7 +162,7 @@ class Painter {
     };
     const std::string in_colour = "=\"" + robot_colour(0) + "\"";
     entry("<circle cx=\"10\" r=\"7\" fill=\"#ffffff\" stroke-width=\"2\" stroke" + in_colour + "/>", "start");
-    const std::string faint = clock_ ? " fill-opacity=\"" + short_number(kGoalBehindRobots) + "\"/>" : "/>";
+    const std::string faint = clock_ ? " fill-opacity=\"" + short_decimal(kGoalBehindRobots) + "\"/>" : "/>";
     entry("<circle cx=\"10\" r=\"8\" fill" + in_colour + faint, "goal");
     if (clock_) {
       entry("<circle cx=\"10\" r=\"8\" stroke=\"#1d2230\" fill" + in_colour + "/>", "robot");
@@ -215,7 +214,7 @@ class Painter {
     frame("fill=\"#fafbfc\"");
     if (cell_px_ >= kGridLinesFromCellSide) draw_grid_lines(canvas_, instance_.map);
     draw_blocked_cells(canvas_, instance_.map);
-    frame("fill=\"none\" stroke=\"#4b5160\" stroke-width=\"" + short_number(1.5 / cell_px_) + "\"");
+    frame("fill=\"none\" stroke=\"#4b5160\" stroke-width=\"" + short_decimal(1.5 / cell_px_) + "\"");
   }
 
   void obstacles() {
@@ -275,7 +274,7 @@ class Painter {
       // Where robots move, what stands still steps back.
       const double opacity = clock_ ? kGoalBehindRobots : ink_.goal_opacity;
       canvas_.circle(centre(agent.goal), agent.radius_cells,
-                     "fill" + in_colour + " fill-opacity=\"" + short_number(opacity) + "\"");
+                     "fill" + in_colour + " fill-opacity=\"" + short_decimal(opacity) + "\"");
       id(agent, agent.goal, agent.radius_cells, in_colour, clock_ ? in_colour : "=\"#ffffff\"");
       canvas_ << "</g>\n";
     }
@@ -296,7 +295,7 @@ class Painter {
       // The ring lies inside of the body, whose rim is its outer edge.
       canvas_.circle(centre(agent.start), std::max(radius - ring_cells / 2, 0.01),
                      "fill=\"#ffffff\" stroke" + in_colour + " fill-opacity=\"" +
-                         (with_ids_ ? "0.85" : "0.35") + "\" stroke-width=\"" + short_number(ring_cells) +
+                         (with_ids_ ? "0.85" : "0.35") + "\" stroke-width=\"" + short_decimal(ring_cells) +
                          "\"");
       id(agent, agent.start, radius, in_colour, in_colour);
       canvas_ << "</g>\n";
@@ -318,8 +317,8 @@ class Painter {
       const Agent& agent = instance_.agents[i];
       const double rim_cells = std::max(0.04, 0.5 / cell_px_);
       moving(trajectories_[i], std::max(agent.radius_cells - rim_cells / 2, 0.01),
-             "stroke=\"#1d2230\" stroke-width=\"" + short_number(rim_cells) + "\" fill=\"" + robot_colour(i) +
-                 "\"");
+             "stroke=\"#1d2230\" stroke-width=\"" + short_decimal(rim_cells) + "\" fill=\"" +
+                 robot_colour(i) + "\"");
       canvas_.tooltip(story(i));
       id(agent, {0, 0}, agent.radius_cells, "=\"#1d2230\"", "=\"#ffffff\"");
       canvas_ << "</g>\n";
@@ -340,7 +339,7 @@ class Painter {
       const Vec2 aside{agent.radius_cells * 0.8 + 0.1 * size, -agent.radius_cells * 0.8};
       canvas_.text(centre(cell) + aside, size,
                    "font-weight=\"bold\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"" +
-                       short_number(0.25 * size) + "\" fill" + in_colour,
+                       short_decimal(0.25 * size) + "\" fill" + in_colour,
                    agent.id);
     }
   }

@@ -1,11 +1,8 @@
 #include "planner/io/svg_animation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
-
-#include "planner/io/text.hpp"
 
 namespace sipplab {
 namespace {
@@ -14,7 +11,7 @@ namespace {
 constexpr double kRestS = 1.5;
 
 /// Shares of a round need more digits than places: a round may last minutes.
-std::string share_text(double share) { return format_real(std::round(share * 1e6) / 1e6); }
+std::string share_text(double share) { return short_decimal(share, 6); }
 
 /// ` keyTimes="..." values="..."`.
 void key_values(SvgCanvas& canvas, const std::vector<std::pair<double, std::string>>& keys) {
@@ -29,7 +26,7 @@ void key_values(SvgCanvas& canvas, const std::vector<std::pair<double, std::stri
 
 SvgClock::SvgClock(double end_s, double speed)
     : end_s_(std::max(end_s, 0.0)), round_s_(end_s_ + kRestS * speed) {
-  attributes_ = " dur=\"" + short_number(round_s_ / speed) + "s\" repeatCount=\"indefinite\"";
+  attributes_ = " dur=\"" + short_decimal(round_s_ / speed) + "s\" repeatCount=\"indefinite\"";
 }
 
 double SvgClock::share(double time_s) const { return std::clamp(time_s / round_s_, 0.0, 1.0); }
@@ -51,7 +48,8 @@ void draw_movement(SvgCanvas& canvas, const Trajectory& trajectory, const SvgClo
 
 void draw_progress(SvgCanvas& canvas, double width, const SvgClock& clock) {
   canvas << "<animate attributeName=\"width\"";
-  key_values(canvas, {{0, "0"}, {clock.share(clock.end_s()), short_number(width)}, {1, short_number(width)}});
+  key_values(canvas,
+             {{0, "0"}, {clock.share(clock.end_s()), short_decimal(width)}, {1, short_decimal(width)}});
   canvas << clock.attributes() << "/>";
 }
 

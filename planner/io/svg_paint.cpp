@@ -1,11 +1,9 @@
-// Colours, numbers and map of the picture: see svg_paint.hpp.
+// Colours and map of the picture: see svg_paint.hpp.
 #include "planner/io/svg_paint.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "planner/io/text.hpp"
 
 namespace sipplab {
 namespace {
@@ -18,44 +16,6 @@ void append_hex_byte(std::string& out, double share) {
 }
 
 }  // namespace
-
-SvgCanvas& SvgCanvas::operator<<(std::string_view text) {
-  out_ += text;
-  return *this;
-}
-
-SvgCanvas& SvgCanvas::operator<<(double value) {
-  out_ += short_number(value);
-  return *this;
-}
-
-void SvgCanvas::label(std::string_view words) { out_ += xml_escaped(words); }
-
-void SvgCanvas::attribute(const char* name, double value) { *this << " " << name << "=\"" << value << "\""; }
-
-void SvgCanvas::circle(Vec2 at, double radius, const std::string& style) {
-  *this << "<circle";
-  attribute("cx", at.x);
-  attribute("cy", at.y);
-  attribute("r", radius);
-  *this << " " << style << "/>";
-}
-
-void SvgCanvas::text(Vec2 at, double size, const std::string& style, const std::string& words) {
-  *this << "<text";
-  attribute("x", at.x);
-  attribute("y", at.y);
-  attribute("font-size", size);
-  *this << " " << style << ">";
-  label(words);
-  *this << "</text>";
-}
-
-void SvgCanvas::tooltip(const std::string& words) {
-  *this << "<title>";
-  label(words);
-  *this << "</title>";
-}
 
 std::string robot_colour(std::size_t position) {
   constexpr double kGoldenAngleDeg = 137.50776405003785;
@@ -78,11 +38,6 @@ std::string robot_colour(std::size_t position) {
   return colour;
 }
 
-std::string short_number(double value) {
-  const double rounded = std::round(value * 1000) / 1000;
-  return std::isfinite(rounded) && rounded != 0 ? format_real(rounded) : "0";
-}
-
 void draw_blocked_cells(SvgCanvas& canvas, const GridMap& map) {
   canvas << "<path fill=\"#4b5160\" d=\"";
   for (std::int32_t y = 0; y < map.height(); ++y) {
@@ -99,7 +54,7 @@ void draw_blocked_cells(SvgCanvas& canvas, const GridMap& map) {
 
 void draw_grid_lines(SvgCanvas& canvas, const GridMap& map) {
   canvas << "<path fill=\"none\" stroke=\"#e2e4e9\"";
-  canvas.attribute("stroke-width", 1 / canvas.cell_px());
+  canvas.attribute("stroke-width", 1 / canvas.unit_px());
   canvas << " d=\"";
   for (std::int32_t x = 1; x < map.width(); ++x) canvas << "M" << x << " 0v" << map.height();
   for (std::int32_t y = 1; y < map.height(); ++y) canvas << "M0 " << y << "h" << map.width();

@@ -82,9 +82,9 @@ class LabelPlacer {
 };
 
 void draw_cross(SvgCanvas& canvas, Vec2 at) {
-  const double arm = std::max(0.22, 5 / canvas.cell_px());
+  const double arm = std::max(0.22, 5 / canvas.unit_px());
   canvas << "<path fill=\"none\" stroke=\"" << kViolationColour << "\"";
-  canvas.attribute("stroke-width", std::max(0.12, 2.5 / canvas.cell_px()));
+  canvas.attribute("stroke-width", std::max(0.12, 2.5 / canvas.unit_px()));
   canvas << " d=\"M" << at.x - arm << " " << at.y - arm << "L" << at.x + arm << " " << at.y + arm;
   canvas << "M" << at.x - arm << " " << at.y + arm << "L" << at.x + arm << " " << at.y - arm << "\"/>";
 }
@@ -107,7 +107,7 @@ Mark mark_of(const ViolationScene& scene, std::size_t number) {
     mark.at = mark.at + (other->at - mark.at) * share;
     mark.words += " and " + other->name;
   }
-  mark.words += ", depth " + short_number(violation.depth_cells);
+  mark.words += ", depth " + short_decimal(violation.depth_cells);
   return mark;
 }
 
@@ -120,7 +120,7 @@ void draw_mark(SvgCanvas& canvas, const ViolationScene& scene, std::size_t numbe
   const Vec2 at = position_at(scene.trajectories[violation.agent], violation.time_s);
   const std::string colour = std::string("=\"") + kViolationColour + "\"";
   const std::string body = "stroke" + colour + " fill" + colour + " fill-opacity=\".22\" stroke-width=\"" +
-                           short_number(std::max(0.06, 1 / canvas.cell_px())) + "\"";
+                           short_decimal(std::max(0.06, 1 / canvas.unit_px())) + "\"";
   canvas << "<g>";
   canvas.tooltip(violation.message);
   canvas.circle(at, scene.instance.agents[violation.agent].radius_cells, body);
@@ -135,7 +135,7 @@ void draw_label(SvgCanvas& canvas, LabelPlacer& placer, const Mark& mark) {
   const Vec2 anchor{std::clamp(mark.at.x, box.left, box.left + box.width),
                     above ? box.top + box.height : box.top};
   canvas << "<path stroke=\"" << kViolationColour << "\"";
-  canvas.attribute("stroke-width", 1 / canvas.cell_px());
+  canvas.attribute("stroke-width", 1 / canvas.unit_px());
   canvas << " d=\"M" << mark.at.x << " " << mark.at.y << "L" << anchor.x << " " << anchor.y << "\"/>";
   canvas << "<rect fill=\"#ffffff\" fill-opacity=\".88\"";
   canvas.attribute("x", box.left);
@@ -156,7 +156,7 @@ void draw_violation_marks(SvgCanvas& canvas, const ViolationScene& scene) {
   for (std::size_t i = 0; i < count; ++i) {
     if (is_drawable(scene, i)) draw_mark(canvas, scene, i);
   }
-  LabelPlacer placer(canvas.cell_px(), scene.instance.map);
+  LabelPlacer placer(canvas.unit_px(), scene.instance.map);
   for (std::size_t i = 0; i < std::min(count, kMaxListed); ++i) {
     if (is_drawable(scene, i)) draw_label(canvas, placer, mark_of(scene, i));
   }
