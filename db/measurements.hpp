@@ -22,8 +22,8 @@ struct Measurement {
   std::optional<double> cpu_time_ns;
   std::string error;  ///< empty: it ran
   std::vector<std::pair<std::string, double>> counters;
-  std::string
-      aggregate;  ///< of many repetitions that are not known: "median" or "mean"; empty: one repetition
+  /// Of repetitions that are not known one by one: "median" or "mean"; empty: one repetition.
+  std::string aggregate = "";
   std::int64_t threads = 1;
   std::string label = "";
 };
