@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/present/numbers.hpp"
-#include "bench/present/style.hpp"
+#include "bench/present/template.hpp"
 #include "bench/present/trend_text.hpp"
 #include "planner/io/text.hpp"
 
@@ -37,27 +37,26 @@ class Page {
 
   std::string write(const std::vector<DensityChart>& charts) {
     const db::RunSummary& run = data_.run.run;
-    text_ = page_head("sipplab: run " + run.uuid.substr(0, kShortUuid));
-    text_ +=
-        fmt::format("<h1>Suite {}, run {}</h1>\n", xml_escaped(run.suite), run.uuid.substr(0, kShortUuid));
-    text_ +=
-        "<nav><a href=\"#density\">density</a><a href=\"#base\">against the base</a><a "
-        "href=\"#flips\">flips</a>"
-        "<a href=\"#trends\">trends</a><a href=\"#properties\">properties</a><a "
-        "href=\"#fuzzing\">fuzzing</a></nav>\n";
-    facts();
-    density(charts);
-    against_base();
-    flips();
-    trends();
-    properties();
-    fuzzing();
-    return text_ + "</body>\n</html>\n";
+    const std::string uuid = run.uuid.substr(0, kShortUuid);
+    return filled_page(report_template(), "sipplab: run " + uuid,
+                       {{"suite", xml_escaped(run.suite)},
+                        {"run", uuid},
+                        {"facts", part([&] { facts(); })},
+                        {"density", part([&] { density(charts); })},
+                        {"base", part([&] { against_base(); })},
+                        {"flips", part([&] { flips(); })},
+                        {"trends", part([&] { trends(); })},
+                        {"properties", part([&] { properties(); })},
+                        {"fuzzing", part([&] { fuzzing(); })}});
   }
 
  private:
-  void section(const char* id, const char* title) {
-    text_ += fmt::format("<h2 id=\"{}\">{}</h2>\n", id, title);
+  /// What it writes.
+  template <class Write>
+  std::string part(const Write& write) {
+    text_.clear();
+    write();
+    return std::move(text_);
   }
   void note(const std::string& words) {
     text_ += fmt::format("<p class=\"note\">{}</p>\n", xml_escaped(words));
@@ -74,7 +73,6 @@ class Page {
 
   void facts() {
     const db::RunSummary& run = data_.run.run;
-    text_ += "<dl>\n";
     fact("run", run.uuid + ", " + run.status);
     fact("started", minute(run.started_utc) + " UTC");
     fact("commit", version(run));
@@ -89,11 +87,9 @@ class Page {
       fact("base", fmt::format("{}, {} UTC, {}", data_.base->run.uuid.substr(0, kShortUuid),
                                minute(data_.base->run.started_utc), version(data_.base->run)));
     }
-    text_ += "</dl>\n";
   }
 
   void density(const std::vector<DensityChart>& charts) {
-    section("density", "Success and runtime by number of robots");
     if (charts.empty()) note("This run has no finished case.");
     if (data_.base && !data_.cells.rows.empty()) note("Dashed: the base.");
     text_ += "<div class=\"charts\">\n";
@@ -139,7 +135,6 @@ class Page {
   }
 
   void against_base() {
-    section("base", "Run against base");
     if (!data_.base) return note("No earlier run of this suite: nothing to compare with.");
     if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
     note(
@@ -209,7 +204,6 @@ class Page {
   }
 
   void flips() {
-    section("flips", "Flips");
     if (!data_.base) return note("No base.");
     if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
     if (data_.flips.rows.empty()) return note("No instance is solved by one of the two runs only.");
@@ -217,10 +211,6 @@ class Page {
   }
 
   void trends() {
-    section("trends", "Trends");
-    note(
-        "Cases of this run over all versions in the history; excluded runs are left out. A dashed line marks "
-        "a change of level.");
     for (const ReportTrend& trend : data_.trends) {
       text_ += fmt::format("<h3>{}: {}</h3>\n", trend.metric->name, trend.metric->meaning);
       std::string lines;
@@ -270,7 +260,6 @@ class Page {
   }
 
   void properties() {
-    section("properties", "Properties");
     if (data_.properties.rows.empty())
       return note("No property run is recorded; scripts/test --record does so.");
     std::size_t passed = 0;
@@ -280,7 +269,6 @@ class Page {
   }
 
   void fuzzing() {
-    section("fuzzing", "Fuzzing");
     if (data_.fuzz_runs.rows.empty()) {
       note("No fuzz run is recorded.");
     } else {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/present/numbers.hpp"
-#include "bench/present/style.hpp"
+#include "bench/present/template.hpp"
 #include "db/aligned.hpp"
 #include "planner/io/text.hpp"
 
@@ -248,16 +248,14 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
 }
 
 std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source) {
-  std::string page = page_head("AAMAS 2018, reproduced");
-  page += "<h1>Andreychuk and Yakovlev (AAMAS 2018), reproduced</h1>\n<p class=\"note\">" +
-          xml_escaped(source) + "</p>\n";
-  page += "<h2>What the paper says</h2>\n" + html_table(claim_words(cells));
-  page += "<h2>Figure 1: start-safe intervals</h2>\n<div class=\"charts\">" +
-          svg(figure_chart(cells), SvgUse::kInline) + "</div>\n" + html_table(figure_words(cells));
-  page += "<h2>Table 1: deterministic and random re-scheduling</h2>\n<div class=\"charts\">" +
-          svg(table_chart(cells), SvgUse::kInline) + "</div>\n" + html_table(table_words(cells));
-  page += fmt::format("<p class=\"note\">{}</p>\n", kLegend);
-  return page + "</body>\n</html>\n";
+  return filled_page(reproduction_template(), "AAMAS 2018, reproduced",
+                     {{"source", xml_escaped(source)},
+                      {"claims", html_table(claim_words(cells))},
+                      {"figure", svg(figure_chart(cells), SvgUse::kInline)},
+                      {"figure_table", html_table(figure_words(cells))},
+                      {"table_chart", svg(table_chart(cells), SvgUse::kInline)},
+                      {"table", html_table(table_words(cells))},
+                      {"legend", kLegend}});
 }
 
 bool is_reproduced(const std::vector<MeasuredCell>& cells) {
