@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "db/sqlite/connection.hpp"
+#include "planner/core/random.hpp"
 
 namespace sipplab::db::sqlite {
 namespace {
@@ -68,10 +69,10 @@ int wait_for_lock(void* handle, int attempts) {
   if (attempts == 0) waiting->wait_began = now;
   if (now - waiting->wait_began > kBusyTimeout) return 0;
 
-  static thread_local std::minstd_rand random{std::random_device{}()};
+  static thread_local Random random{std::random_device{}()};
   const int longest = std::min(kLongestWaitUs, kShortestWaitUs << std::min(attempts + 1, kDoublings));
-  std::uniform_int_distribution<int> wait_us{kShortestWaitUs, longest};
-  std::this_thread::sleep_for(std::chrono::microseconds{wait_us(random)});
+  const auto more_us = random.below(static_cast<std::uint64_t>(longest - kShortestWaitUs) + 1);
+  std::this_thread::sleep_for(std::chrono::microseconds{kShortestWaitUs + static_cast<int>(more_us)});
   return 1;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "planner/core/random.hpp"
+
 namespace sipplab::db::statistics {
 namespace {
 
@@ -16,22 +18,6 @@ constexpr double kMostPermutations = 9'999;
 constexpr double kFewestPermutations = 199;
 /// Steps of a Fenwick tree for one test, about 0.1 s: long series get fewer permutations.
 constexpr double kStepsPerTest = 2e7;
-
-/// xorshift64*: the same numbers from every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ULL | 1) {}
-  std::size_t below(std::size_t bound) {
-    state_ ^= state_ >> 12;
-    state_ ^= state_ << 25;
-    state_ ^= state_ >> 27;
-    // The bias is below 2^-44 for series of a million points.
-    return static_cast<std::size_t>((state_ * 0x2545f4914f6cdd1dULL) % bound);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Counts and sums of the values up to a rank.
 class RankedSums {
@@ -100,9 +86,7 @@ class Part {
     return std::all_of(values_.begin(), values_.end(), [this](double value) { return value == values_[0]; });
   }
 
-  void shuffle(Random& random) {
-    for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random.below(i)]);
-  }
+  void shuffle(Random& random) { random.shuffle(order_); }
 
   /// The division that is strongest in the present order.
   Best best(std::size_t min_segment) {

@@ -3,17 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "planner/core/random.hpp"
 
 namespace sipplab::db::statistics {
 namespace {
 
-std::vector<double> noisy(std::mt19937& random, std::size_t count, double level, double noise) {
-  // The library's distributions differ between compilers; a sum of twelve uniforms does not.
+std::vector<double> noisy(Random& random, std::size_t count, double level, double noise) {
+  // Nearly normal: a sum of twelve uniforms.
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) {
     double sum = -6;
-    for (int k = 0; k < 12; ++k) sum += static_cast<double>(random()) / 4294967296.0;
+    for (int k = 0; k < 12; ++k) sum += random.unit();
     values.push_back(level + noise * sum);
   }
   return values;
@@ -50,7 +50,7 @@ TEST(ChangePoints, a_step_is_found_at_its_first_point) {
 }
 
 TEST(ChangePoints, steps_up_and_down_are_found_in_noise) {
-  std::mt19937 random{7};
+  Random random{7};
   const auto values =
       joined(joined(noisy(random, 60, 10, 1), noisy(random, 50, 13, 1)), noisy(random, 70, 9.5, 1));
   const std::vector<std::size_t> positions = accepted(values);
@@ -60,7 +60,7 @@ TEST(ChangePoints, steps_up_and_down_are_found_in_noise) {
 }
 
 TEST(ChangePoints, noise_alone_is_divided_as_rarely_as_promised) {
-  std::mt19937 random{1};
+  Random random{1};
   constexpr int kSeries = 200;
   int alarms = 0;
   for (int i = 0; i < kSeries; ++i) alarms += accepted(noisy(random, 30, 5, 1)).empty() ? 0 : 1;
@@ -70,7 +70,7 @@ TEST(ChangePoints, noise_alone_is_divided_as_rarely_as_promised) {
 }
 
 TEST(ChangePoints, the_same_series_gives_the_same_answer) {
-  std::mt19937 random{3};
+  Random random{3};
   const auto values = joined(noisy(random, 20, 1, 1), noisy(random, 20, 1.6, 1));
   const auto first = divide(values);
   const auto second = divide(values);

@@ -7,12 +7,12 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <random>
 #include <thread>
 
 #include "db/identity.hpp"
 #include "db/queries.hpp"
 #include "db/tests/support.hpp"
+#include "planner/core/random.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -80,9 +80,7 @@ int record_without_end(RunRecorder& recorder, std::int64_t first, int results, i
 TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
   const int kills = from_environment("SIPPLAB_TEST_KILLS", 50);
   constexpr int kResults = 40;
-  std::mt19937 random{1};
-  std::uniform_int_distribution<int> cases_before_kill{0, 3};
-  std::uniform_int_distribution<int> delay_us{0, 3'000};
+  Random random{1};
   std::int64_t finished = 0;
   const std::string uuid = must(RunRecorder::begin(must(Database::open(file)), sample_run())).run_uuid();
   // The run began in this process, which is alive and so would be left alone.
@@ -102,9 +100,9 @@ TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
     // Some are killed while they open the file, most in the middle of writing.
     std::int64_t reported = 0;
     char byte = 0;
-    const int enough = cases_before_kill(random);
+    const auto enough = static_cast<std::int64_t>(random.below(4));
     while (reported < enough && read(ends[0], &byte, 1) == 1) ++reported;
-    std::this_thread::sleep_for(std::chrono::microseconds{delay_us(random)});
+    std::this_thread::sleep_for(std::chrono::microseconds{random.below(3'000)});
     kill(child, SIGKILL);
     while (read(ends[0], &byte, 1) == 1) ++reported;
     close(ends[0]);
