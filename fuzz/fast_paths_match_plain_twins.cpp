@@ -1,5 +1,5 @@
 // Claim: wherever there is a fast path, it gives what its plain twin gives: the indexed
-// reservation table and late evaluation of arrivals. The traffic is the plan of the case
+// reservation table and lazy successors. The traffic is the plan of the case
 // itself, in which contacts are everywhere. Nothing is claimed of the straight shot at the
 // goal: with other robots about, the search may arrive earlier without it, or later.
 #include <algorithm>
@@ -11,11 +11,10 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/core/tolerances.hpp"
-#include "planner/geometry/collision_interval.hpp"
-#include "planner/geometry/interval_set.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "property_tests/support/plain_twins.hpp"
 
 namespace {
 
@@ -67,6 +66,21 @@ Traffic kept_apart(Traffic traffic) {
   return traffic;
 }
 
+PlainTable twin_of(const Traffic& traffic) {
+  PlainTable twin;
+  for (std::size_t i = 0; i < traffic.trajectories.size(); ++i) {
+    const Trajectory& trajectory = traffic.trajectories[i];
+    const double radius = traffic.radii[i];
+    for (const TimedMotion& motion : trajectory.motions) {
+      twin.disks.push_back(MovingDisk::moving(Displacement(centre(motion.from), centre(motion.to)),
+                                              motion.begin_s, motion.end_s, radius));
+    }
+    twin.disks.push_back(
+        MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius));
+  }
+  return twin;
+}
+
 void fill(ReservationTable& table, const Traffic& traffic) {
   for (std::size_t i = 0; i < traffic.trajectories.size(); ++i) {
     table.add(traffic.trajectories[i], traffic.radii[i]);
@@ -76,6 +90,7 @@ void fill(ReservationTable& table, const Traffic& traffic) {
 void check_departures(const Instance& instance, const Agent& agent, const Traffic& traffic) {
   ReservationTable table(instance.map, agent.radius_cells);
   fill(table, traffic);
+  const PlainTable twin = twin_of(traffic);
   const LineOfSight sight(instance.map, agent.radius_cells);
   for (std::size_t i = 0; i < instance.map.cell_count(); ++i) {
     const Cell to = instance.map.cell(i);
@@ -83,34 +98,21 @@ void check_departures(const Instance& instance, const Agent& agent, const Traffi
     const Move move(Displacement(centre(agent.start), centre(to)), agent.speed_cells_per_s);
     const double from_s = kFromS[i % std::size(kFromS)];
     const double fast_s = table.earliest_departure(move, agent.radius_cells, from_s, kForever);
-    const double plain_s = table.earliest_departure_plain(move, agent.radius_cells, from_s, kForever);
+    const double plain_s = twin.earliest_departure(move, agent.radius_cells, from_s, kForever);
     fuzz::count(fuzz::Event::kComparisons);
     require_twins(fast_s == plain_s || std::abs(fast_s - plain_s) <= kTwinS, "another earliest departure");
   }
 }
 
-/// All time less what each disk takes, one disk after another.
 void check_safe_intervals(const Instance& instance, const Agent& agent, const Traffic& traffic) {
   ReservationTable table(instance.map, agent.radius_cells);
   fill(table, traffic);
+  const PlainTable twin = twin_of(traffic);
   for (std::size_t i = 0; i < instance.map.cell_count(); ++i) {
     const Cell cell = instance.map.cell(i);
     if (instance.map.is_blocked(cell)) continue;
-    IntervalSet expected;
-    for (std::size_t k = 0; k < traffic.trajectories.size(); ++k) {
-      const Trajectory& trajectory = traffic.trajectories[k];
-      const auto cut = [&](const MovingDisk& disk) {
-        expected.remove_open(collision_interval(centre(cell), disk, agent.radius_cells + disk.radius));
-      };
-      for (const TimedMotion& motion : trajectory.motions) {
-        const Vec2 from = centre(motion.from);
-        cut(motion.is_wait() ? MovingDisk::resting(from, motion.begin_s, motion.end_s, traffic.radii[k])
-                             : MovingDisk::moving(Displacement(from, centre(motion.to)), motion.begin_s,
-                                                  motion.end_s, traffic.radii[k]));
-      }
-      cut(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, traffic.radii[k]));
-    }
-    require_twins(std::ranges::equal(table.safe_intervals(cell, agent.radius_cells), expected.intervals()),
+    require_twins(std::ranges::equal(table.safe_intervals(cell, agent.radius_cells),
+                                     twin.safe_intervals(cell, agent.radius_cells)),
                   "other safe intervals");
   }
 }
@@ -135,22 +137,16 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   options.connectedness = plan_case.options.connectedness;
   options.any_angle = false;
   const Arrival grid = search(plan_case, agent, traffic, options);
-  options.lazy_evaluation = false;
-  const Arrival eager = search(plan_case, agent, traffic, options);
-  options.indexed_reservations = false;
-  const Arrival plain = search(plan_case, agent, traffic, options);
-  options = {};
-  options.connectedness = plan_case.options.connectedness;
-  options.any_angle = false;
+  const auto plain_s = plain_arrival_s(plan_case.instance.map, twin_of(traffic),
+                                       plan_case.instance.agents[agent], options.connectedness);
+  const Arrival plain{plain_s.has_value(), plain_s.value_or(0)};
   options.detours = false;
   const Arrival straight = search(plan_case, agent, traffic, options);
-  for (const Arrival& twin : {eager, plain, straight}) {
+  for (const Arrival& twin : {plain, straight}) {
     require_twins(twin.found == grid.found, "found by one twin only");
     require_twins(!grid.found || std::abs(twin.arrival_s - grid.arrival_s) <= kArrivalS, "another arrival");
   }
-  options = {};
-  options.any_angle = false;
-  options.connectedness = plan_case.options.connectedness;
+  options.detours = true;
   options.weight = plan_case.options.weight;
   const Arrival weighted = search(plan_case, agent, traffic, options);
   require_twins(weighted.found == grid.found, "found with one weight of the heuristic only");

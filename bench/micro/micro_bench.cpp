@@ -159,7 +159,6 @@ void safe_intervals(benchmark::State& state) {
 }
 BENCHMARK(safe_intervals)->Name("reservation/safe_intervals");
 
-/// Argument: 0 for the indexed search of the table, 1 for its plain twin.
 void earliest_departure(benchmark::State& state) {
   Crowd& crowd = the_crowd();
   if (!crowd.ready(state)) return;
@@ -170,16 +169,14 @@ void earliest_departure(benchmark::State& state) {
     clear.emplace_back(Displacement(centre(ends.from), centre(ends.to)), kDefaultSpeedCellsPerS);
   }
   constexpr double kUntilS = 100;  // past the end of all motion
-  const bool plain = state.range(0) != 0;
   std::size_t next = 0;
   for ([[maybe_unused]] auto iteration : state) {
     const Move& move = clear[next++ % clear.size()];
     benchmark::DoNotOptimize(
-        plain ? crowd.reservations.earliest_departure_plain(move, kDefaultRadiusCells, 0, kUntilS)
-              : crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
+        crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
   }
 }
-BENCHMARK(earliest_departure)->Name("reservation/earliest_departure")->ArgName("plain")->Arg(0)->Arg(1);
+BENCHMARK(earliest_departure)->Name("reservation/earliest_departure");
 
 /// One goal and one cell after the other, whose ways are long: nothing is known of the goal yet.
 void static_detour(benchmark::State& state) {

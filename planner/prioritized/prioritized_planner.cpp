@@ -8,7 +8,6 @@
 #include "planner/prioritized/limits.hpp"
 #include "planner/prioritized/start_guard.hpp"
 #include "planner/search/sipp_search.hpp"
-#include "planner/search/turning_search.hpp"
 
 namespace sipplab {
 namespace {
@@ -138,12 +137,9 @@ void plan_all_at_once(const Instance& instance, const PlannerOptions& options, P
 
 std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
                                                          const PlannerOptions& options) {
-  if (options.rules.is_plain()) {
-    return std::make_unique<SippSearch>(
-        instance, SippOptions{options.any_angle, options.connectedness, options.weight});
-  }
-  return std::make_unique<TurningSearch>(
-      instance, TurningOptions{options.any_angle, options.connectedness, options.rules, options.weight});
+  const SippOptions search{options.any_angle, options.connectedness, options.weight, options.rules};
+  if (options.rules.is_plain()) return std::make_unique<SippSearch>(instance, search);
+  return std::make_unique<TurningSearch>(instance, search);
 }
 
 namespace {

@@ -2,7 +2,6 @@
 // vectors, so that every machine has it; what it lets through is decided exactly afterwards.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -14,25 +13,12 @@ namespace sipplab {
 struct alignas(32) SliceEntry {
   float x;  ///< at the beginning of the slice, on the line
   float y;
+  float radius;
+  std::uint32_t disk;
   float vx;  ///< cells per slice
   float vy;
   float begin;  ///< of its stay on the line
   float end;
-  float radius;
-  std::uint32_t disk;
-};
-
-/// Four disks that stay where they are for long, or near there. Times are absolute.
-struct alignas(16) StayFour {
-  static constexpr std::uint32_t kNobody = UINT32_MAX;
-
-  std::array<float, 4> x;
-  std::array<float, 4> y;
-  std::array<float, 4> radius;
-  std::array<float, 4> begin_s;
-  std::array<float, 4> end_s;
-  std::array<std::uint32_t, 4> disk;  ///< kNobody where there is room
-  std::uint32_t next;                 ///< the four that come next, or 0
 };
 
 /// The motion of a robot during a slice, or a part of it, in the same terms; one value four times over.
@@ -42,12 +28,7 @@ class NearFilter {
 
  public:
   /// `velocity` in cells per slice.
-  NearFilter(Vec2 velocity, double reach)
-      : vx_(all(velocity.x)),
-        vy_(all(velocity.y)),
-        vx_squared_(all(velocity.x / squared_norm(velocity))),
-        vy_squared_(all(velocity.y / squared_norm(velocity))),
-        reach_(all(reach)) {}
+  NearFilter(Vec2 velocity, double reach) : vx_(all(velocity.x)), vy_(all(velocity.y)), reach_(all(reach)) {}
 
   /// From now on the robot is at this place when the slice begins, and what counts is [begin, end] of it.
   void set(Vec2 place, double begin, double end) {
@@ -60,10 +41,10 @@ class NearFilter {
   /// Bit i is set where the two come nearer than the sum of entry i's radius and `reach` in the time that
   /// they share, as far as floats can tell.
   unsigned near(const SliceEntry& a, const SliceEntry& b, const SliceEntry& c, const SliceEntry& d) const {
-    Float4 x = load(&a.x), y = load(&b.x), vx = load(&c.x), vy = load(&d.x);
-    transpose(x, y, vx, vy);
-    Float4 begin = load(&a.begin), end = load(&b.begin), radius = load(&c.begin), disk = load(&d.begin);
-    transpose(begin, end, radius, disk);
+    Float4 x = load(&a.x), y = load(&b.x), radius = load(&c.x), disk = load(&d.x);
+    transpose(x, y, radius, disk);
+    Float4 vx = load(&a.vx), vy = load(&b.vx), begin = load(&c.vx), end = load(&d.vx);
+    transpose(vx, vy, begin, end);
     begin = begin > begin_ ? begin : begin_;
     const Float4 span = (end < end_ ? end : end_) - begin;
     vx -= vx_;
@@ -78,20 +59,6 @@ class NearFilter {
     y += vy * nearest;
     radius += reach_;
     return bits((x * x + y * y < radius * radius) & (span >= 0.0F));
-  }
-
-  /// The same for those that stay, and are there between the two times.
-  unsigned near(const StayFour& stays, double from_s, double until_s) const {
-    Float4 x = load(stays.x.data()) - x_;
-    Float4 y = load(stays.y.data()) - y_;
-    Float4 nearest = x * vx_squared_ + y * vy_squared_;
-    nearest = nearest > begin_ ? nearest : begin_;
-    nearest = nearest < end_ ? nearest : end_;
-    x -= vx_ * nearest;
-    y -= vy_ * nearest;
-    const Float4 radius = load(stays.radius.data()) + reach_;
-    return bits((x * x + y * y < radius * radius) & (load(stays.begin_s.data()) < all(until_s)) &
-                (load(stays.end_s.data()) > all(from_s)));
   }
 
  private:
@@ -125,7 +92,6 @@ class NearFilter {
   }
 
   Float4 vx_, vy_;
-  Float4 vx_squared_, vy_squared_;  ///< over the square of the speed
   Float4 reach_;
   Float4 x_{}, y_{}, begin_{}, end_{};
 };

@@ -15,19 +15,6 @@
 namespace sipplab {
 namespace {
 
-/// End of a disk that was removed: before every beginning.
-constexpr double kRemoved = -kForever;
-
-/// End of a presence that does not end.
-constexpr float kNever = std::numeric_limits<float>::infinity();
-
-/// A float below x, or above, by one or two units in its last place. REQUIRES: finite.
-float at_most(double x) {
-  const auto near = static_cast<float>(x);
-  return near - std::abs(near) * std::numeric_limits<float>::epsilon();
-}
-float at_least(double x) { return -at_most(-x); }
-
 /// Cells. How far the mover's centre is at most from where it is in the middle of a look-up.
 constexpr double kHalfStepCells = 0.5;
 
@@ -51,111 +38,36 @@ ReservationTable::ReservationTable(const GridMap& map, const Askers& askers)
       blocks_(map, askers.max_radius_cells + kHalfStepCells + filter_margin(map), kMostBlocks),
       filter_margin_(filter_margin(map)),
       slices_(blocks_, 1 / askers.max_speed_cells_per_s, askers.time_margin_s, arena_),
-      stay_heads_(arena_),
-      stays_(arena_),
       safe_times_(map, askers.max_radius_cells, askers.time_margin_s, arena_) {
   clear();
 }
 
 void ReservationTable::clear() {
   arena_.reset();
-  slices_.abandon();
-  stays_.abandon();
-  stay_heads_.abandon();
-  stay_heads_.assign(blocks_.count(), 0);
-  stays_.push_back({});
-  free_stay_ = 0;
+  slices_.clear();
   safe_times_.clear();
   disks_.clear();
-  is_short_.clear();
   free_ids_.clear();
   keepouts_.clear();
-}
-
-void ReservationTable::add_stay(DiskId id) {
-  const MovingDisk& disk = disks_[id];
-  // A slow motion lies within a circle about its middle.
-  const Vec2 middle = (disk.from + disk.way.to) * 0.5;
-  const double radius = disk.radius + disk.way.length / 2 + disk.speed * askers_.time_margin_s;
-  blocks_.for_each_near(disk.from, disk.way.to, disk.radius, [&](std::size_t block) {
-    std::uint32_t place = stay_heads_[block];
-    if (place == 0 || stays_[place].disk.back() != StayFour::kNobody) {
-      place = free_stay_;
-      if (place == 0) {
-        place = static_cast<std::uint32_t>(stays_.size());
-        stays_.push_back({});
-      }
-      StayFour& four = stays_[place];
-      free_stay_ = four.next;
-      four.disk.fill(StayFour::kNobody);
-      four.end_s.fill(-kNever);
-      four.next = stay_heads_[block];
-      stay_heads_[block] = place;
-    }
-    StayFour& four = stays_[place];
-    std::size_t lane = 0;
-    while (four.disk[lane] != StayFour::kNobody) ++lane;
-    four.x[lane] = static_cast<float>(middle.x);
-    four.y[lane] = static_cast<float>(middle.y);
-    four.radius[lane] = static_cast<float>(radius);
-    const double margin_s = askers_.time_margin_s + 2 * slices_.margin_s();
-    four.begin_s[lane] = at_most(disk.begin_s - margin_s);
-    four.end_s[lane] = disk.end_s == kForever ? kNever : at_least(disk.end_s + margin_s);
-    four.disk[lane] = id;
-  });
-}
-
-void ReservationTable::remove_stay(DiskId id) {
-  const MovingDisk& disk = disks_[id];
-  blocks_.for_each_near(disk.from, disk.way.to, disk.radius, [&](std::size_t block) {
-    std::uint32_t* link = &stay_heads_[block];
-    while (std::find(stays_[*link].disk.begin(), stays_[*link].disk.end(), id) == stays_[*link].disk.end()) {
-      link = &stays_[*link].next;
-    }
-    // The last of the first four takes its place, so that only these have room.
-    StayFour& four = stays_[*link];
-    const auto lane =
-        static_cast<std::size_t>(std::find(four.disk.begin(), four.disk.end(), id) - four.disk.begin());
-    StayFour& head = stays_[stay_heads_[block]];
-    std::size_t last = 3;
-    while (head.disk[last] == StayFour::kNobody) --last;
-    for (std::array<float, 4> StayFour::*values :
-         {&StayFour::x, &StayFour::y, &StayFour::radius, &StayFour::begin_s, &StayFour::end_s}) {
-      (four.*values)[lane] = (head.*values)[last];
-    }
-    four.disk[lane] = head.disk[last];
-    head.disk[last] = StayFour::kNobody;
-    head.end_s[last] = -kNever;
-    if (last > 0) return;
-    std::swap(stay_heads_[block], head.next);
-    std::swap(free_stay_, head.next);
-  });
 }
 
 ReservationTable::DiskId ReservationTable::add(const MovingDisk& disk) {
   auto id = static_cast<DiskId>(disks_.size());
   if (free_ids_.empty()) {
     disks_.push_back(disk);
-    is_short_.push_back(0);
   } else {
     id = free_ids_.back();
     free_ids_.pop_back();
     disks_[id] = disk;
   }
-  is_short_[id] = slices_.put(disk, id) ? 1 : 0;
-  if (is_short_[id] == 0) add_stay(id);
+  slices_.put(disk, id);
   safe_times_.add(disk, id);
   return id;
 }
 
 void ReservationTable::remove(DiskId id) {
-  if (is_short_[id] != 0) {
-    slices_.remove(disks_[id], id);
-  } else {
-    remove_stay(id);
-  }
+  slices_.remove(disks_[id], id);
   safe_times_.remove(disks_[id], id);
-  disks_[id].end_s = kRemoved;
   free_ids_.push_back(id);
 }
 
@@ -232,27 +144,14 @@ bool ReservationTable::is_stopped(Question& question, double from_s, double to_s
   const Vec2 velocity = question.move.velocity;
   const Vec2 origin =
       question.move.way.from + velocity * -question.departure_s;  // at time 0, were it on its way
-  const double slice_s = slices_.slice_s();
-  const double slices_per_s = slices_.per_second();
-  const double windows_per_s = slices_per_s * static_cast<double>(std::int64_t{1} << question.splits);
+  const double windows_per_s = slices_.per_second() * static_cast<double>(std::int64_t{1} << question.splits);
   const double window_s = 1 / windows_per_s;
   for (auto window = static_cast<std::int64_t>(from_s * windows_per_s);; ++window) {
     const double next_s = static_cast<double>(window + 1) * window_s;
     const double until_s = std::min(next_s, to_s);
-    const Vec2 middle = origin + velocity * ((from_s + until_s) / 2);
-    const std::size_t block = blocks_.at(middle.x, middle.y);
-    const std::int64_t slice = window >> question.splits;
-    const double begin_s = static_cast<double>(slice) * slice_s;
-    question.filter.set(origin + velocity * begin_s, (from_s - begin_s) * slices_per_s,
-                        (until_s - begin_s) * slices_per_s);
-    bool stopped = slices_.any_near(static_cast<std::size_t>(slice), block, question.filter, test);
-    for (std::uint32_t place = stay_heads_[block]; place != 0 && !stopped; place = stays_[place].next) {
-      const StayFour& four = stays_[place];
-      unsigned near = question.filter.near(four, from_s, until_s);
-      for (; near != 0 && !stopped; near &= near - 1) {
-        stopped = test(four.disk[static_cast<std::size_t>(std::countr_zero(near))]);
-      }
-    }
+    const std::size_t block = blocks_.at(origin + velocity * ((from_s + until_s) / 2));
+    const bool stopped = slices_.any_near(static_cast<std::size_t>(window >> question.splits), block,
+                                          question.filter, origin, velocity, from_s, until_s, test);
     if (stopped) question.resume_s = from_s - question.departure_s;
     if (stopped || !(next_s < to_s)) return stopped;
     from_s = next_s;
@@ -293,23 +192,6 @@ double ReservationTable::earliest_departure(const Move& move, double radius_cell
   } while (stopped);
   if (likely_blocker) *likely_blocker = question.blocker;
   return question.departure_s;
-}
-
-double ReservationTable::earliest_departure_plain(const Move& move, double radius_cells, double from_s,
-                                                  double until_s) const {
-  if (is_kept_out(move.way, radius_cells)) return kForever;
-  double departure_s = from_s;
-  bool moved = true;
-  while (moved && departure_s <= until_s && departure_s < kForever) {
-    moved = false;
-    for (const MovingDisk& disk : disks_) {
-      if (disk.end_s == kRemoved) continue;
-      const double later_s = end_of_overlap(move, disk, radius_cells, departure_s);
-      moved = moved || later_s > departure_s;
-      departure_s = later_s;
-    }
-  }
-  return departure_s;
 }
 
 }  // namespace sipplab

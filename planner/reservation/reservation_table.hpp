@@ -26,9 +26,9 @@ struct Askers {
 
 /// Disks in motion, found by place and time.
 ///
-/// Short motions lie in slices of time, each about as long as the fastest robot needs for one cell
-/// (TimeSlices): a query looks once into each slice that it meets. What stays for long, goals above all, is
-/// listed by block of cells. Both only name candidates; the closed form of collision_interval.hpp decides.
+/// They lie in slices of time, each about as long as the fastest robot needs for one cell (TimeSlices): a
+/// query looks once into each slice that it meets. These only name candidates; the closed form of
+/// collision_interval.hpp decides.
 class ReservationTable {
  public:
   using DiskId = std::uint32_t;
@@ -71,15 +71,11 @@ class ReservationTable {
   /// where no departure from from_s on is safe.
   /// Of the disks that stood in the way, the last is stored in `likely_blocker` and is
   /// looked at first by the next query: who asks for similar moves passes the same variable,
-  /// kNoDisk at first. The answer does not depend on it.
+  /// kNoDisk at first. The answer depends neither on it nor on the order in which disks were added: it is the
+  /// least time in none of the open intervals of unsafe departures, to the last bit.
   /// REQUIRES: the move joins two different cell centres of the map.
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s,
                             DiskId* likely_blocker = nullptr) const;
-
-  /// The same by looking at every disk: the plain twin, for tests and benchmarks.
-  /// The answers are equal to the last bit: both are the least time in none of the open
-  /// intervals of unsafe departures, whatever the order in which disks were added.
-  double earliest_departure_plain(const Move& move, double radius_cells, double from_s, double until_s) const;
 
  private:
   struct Keepout {
@@ -89,8 +85,6 @@ class ReservationTable {
   };
   struct Question;
   bool is_kept_out(const Displacement& way, double radius_cells) const;
-  void add_stay(DiskId id);
-  void remove_stay(DiskId id);
   /// Where departing then is unsafe for a disk: the end of the unsafe departures around it. Else departure_s.
   double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                         double departure_s) const;
@@ -103,13 +97,9 @@ class ReservationTable {
   Blocks blocks_;
   double filter_margin_;  ///< cells
   TimeSlices slices_;
-  ArenaVector<std::uint32_t> stay_heads_;  ///< by block: in stays_, or 0
-  ArenaVector<StayFour> stays_;
-  std::uint32_t free_stay_ = 0;
   SafeTimes safe_times_;
   std::vector<MovingDisk> disks_;
-  std::vector<std::uint8_t> is_short_;  ///< by disk: whether it is in slices_
-  std::vector<DiskId> free_ids_;        ///< of disks that were removed
+  std::vector<DiskId> free_ids_;  ///< of disks that were removed
   std::vector<Keepout> keepouts_;
 };
 

@@ -15,18 +15,15 @@ SafeTimes::SafeTimes(const GridMap& map, double max_radius_cells, double time_ma
       time_margin_s_(time_margin_s),
       arena_(arena),
       heads_(arena),
-      near_(arena),
-      intervals_(arena) {
+      near_(arena) {
   clear();
 }
 
 void SafeTimes::clear() {
   heads_.abandon();
   near_.abandon();
-  intervals_.abandon();
   heads_.assign(map_.cell_count(), 0);
   near_.push_back({0, 0});
-  for (std::vector<std::uint32_t>& offsets : free_) offsets.clear();
   free_near_ = 0;
   used_ = 0;
 }
@@ -117,13 +114,13 @@ SafeTimes::OfRadius& SafeTimes::of_radius(double radius) {
   OfRadius& chosen = by_radius_[is_full ? replaced_++ % kMostRadii : used_++];
   if (!is_full) {
     chosen.sets = arena_.take<Set>(map_.cell_count());
-    std::fill_n(chosen.sets, map_.cell_count(), Set{0, 0, 0});
+    std::fill_n(chosen.sets, map_.cell_count(), Set{nullptr, 0, 0});
   }
   chosen.radius = radius;
   for (std::size_t cell = 0; cell < map_.cell_count(); ++cell) {
     Set& set = chosen.sets[cell];
     if (heads_[cell] != 0 || set.capacity > 0) {
-      reserve(set, 2);
+      reserve(set, 1);
       set.size = kUnknown;
     }
   }
@@ -135,40 +132,32 @@ std::span<const SafeInterval> SafeTimes::found_out(std::size_t cell, double radi
   Set& set = of_radius(radius).sets[cell];
   if (set.capacity == 0) return {&kAllTime, 1};
   set.size = 1;
-  intervals_[set.offset] = kAllTime;
+  set.intervals[0] = kAllTime;
   for (std::uint32_t place = heads_[cell]; place != 0; place = near_[place].next) {
     const OpenInterval unsafe = unsafe_at(cell, disks[near_[place].disk], radius);
     if (!unsafe.empty()) cut(set, unsafe);
   }
-  return {&intervals_[set.offset], set.size};
+  return {set.intervals, set.size};
 }
 
 void SafeTimes::reserve(Set& set, std::uint32_t capacity) {
   if (set.capacity >= capacity) return;
-  capacity = std::bit_ceil(capacity);
-  std::vector<std::uint32_t>& free = free_[static_cast<std::size_t>(std::countr_zero(capacity))];
-  std::uint32_t offset = 0;
-  if (!free.empty()) {
-    offset = free.back();
-    free.pop_back();
-  } else {
-    offset = static_cast<std::uint32_t>(intervals_.size());
-    intervals_.resize(offset + capacity, kAllTime);
-  }
-  if (set.capacity > 0) {
-    std::copy_n(&intervals_[set.offset], set.size == kUnknown ? 0 : set.size, &intervals_[offset]);
-    free_[static_cast<std::size_t>(std::countr_zero(set.capacity))].push_back(set.offset);
-  } else {
+  capacity = std::bit_ceil(std::max(capacity, kFirstRoom));
+  Interval* const intervals = arena_.take<Interval>(capacity);
+  intervals[0] = kAllTime;
+  if (set.capacity == 0) {
     set.size = 1;
-    intervals_[offset] = kAllTime;
+  } else {
+    std::copy_n(set.intervals, set.size == kUnknown ? 0 : set.size, intervals);
+    arena_.give_back(set.intervals, set.capacity);
   }
-  set.offset = offset;
+  set.intervals = intervals;
   set.capacity = capacity;
 }
 
 void SafeTimes::cut(Set& set, OpenInterval unsafe) {
-  reserve(set, set.capacity == 0 ? 2 : set.size + 1);
-  Interval* const intervals = &intervals_[set.offset];
+  reserve(set, set.size + 1);
+  Interval* const intervals = set.intervals;
   // From the end: robots are planned forward in time, and what is last is often what is cut.
   Interval* last = intervals + set.size;  // one past those that begin before the end of the cut
   while (last > intervals && (last - 1)->begin_s >= unsafe.end_s) --last;

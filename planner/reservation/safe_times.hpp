@@ -34,7 +34,7 @@ class SafeTimes {
       if (by_radius_[i].radius != radius) continue;
       const Set& set = by_radius_[i].sets[cell];
       if (set.capacity == 0) return {&kAllTime, 1};
-      if (set.size != kUnknown) return {&intervals_[set.offset], set.size};
+      if (set.size != kUnknown) return {set.intervals, set.size};
     }
     return found_out(cell, radius, disks);
   }
@@ -42,11 +42,12 @@ class SafeTimes {
  private:
   static constexpr SafeInterval kAllTime{};
   static constexpr std::uint32_t kUnknown = UINT32_MAX;
-  static constexpr std::size_t kMostRadii = 4;  ///< that are kept up to date
+  static constexpr std::uint32_t kFirstRoom = 4;  ///< intervals; as many as fit the arena's smallest piece
+  static constexpr std::size_t kMostRadii = 4;    ///< that are kept up to date
 
-  /// Intervals in a row; all of time where there is no room for any.
+  /// All of time where there is no room for any.
   struct Set {
-    std::uint32_t offset;
+    Interval* intervals;
     std::uint32_t size;
     std::uint32_t capacity;
   };
@@ -78,8 +79,6 @@ class SafeTimes {
   ArenaVector<std::uint32_t> heads_;  ///< by cell: its list; 0 for none
   ArenaVector<Near> near_;
   std::uint32_t free_near_ = 0;
-  ArenaVector<Interval> intervals_;
-  std::array<std::vector<std::uint32_t>, 32> free_;  ///< offsets of rows of 2^i intervals that are free
 };
 
 }  // namespace sipplab

@@ -5,6 +5,32 @@
 #include "planner/core/assert.hpp"
 
 namespace sipplab {
+namespace {
+
+/// Entries for which a slice has room at first, and slots for those that overflow.
+constexpr std::uint32_t kFirstRoom = 16;
+
+/// The first plain values of a row, with room for more.
+template <class T>
+T* copy(const T* row, std::size_t count, std::size_t capacity, Arena& arena) {
+  if (capacity == 0) return nullptr;
+  T* const copied = arena.take<T>(capacity);
+  if (row != nullptr) std::memcpy(static_cast<void*>(copied), row, count * sizeof(T));
+  return copied;
+}
+
+/// Doubles a row of `count` plain values once it is full.
+template <class T>
+void make_room(T*& row, std::uint32_t count, std::uint32_t& capacity, Arena& arena) {
+  if (count < capacity) return;
+  const std::uint32_t larger = std::max(2 * capacity, kFirstRoom);
+  T* const moved = copy(row, capacity, larger, arena);
+  if (capacity > 0) arena.give_back(row, capacity);
+  row = moved;
+  capacity = larger;
+}
+
+}  // namespace
 
 Blocks::Blocks(const GridMap& map, double room, std::size_t most) : room_(room) {
   for (;; ++shift_) {
@@ -14,122 +40,77 @@ Blocks::Blocks(const GridMap& map, double room, std::size_t most) : room_(room) 
   }
 }
 
-bool TimeSlices::find_span(const MovingDisk& disk, Span& span) const {
-  const double first = (disk.begin_s - time_margin_s_) * per_second_ - kMargin;
-  const double last = (disk.end_s + time_margin_s_) * per_second_ + kMargin;
-  if (!(last < kMostSlices) || last - first > kLongestStand + kMostForCell * disk.way.length) return false;
-  span = {static_cast<std::size_t>(std::max(first, 0.0)), static_cast<std::size_t>(std::max(last, 0.0))};
-  return true;
+Slice::Slice(const Blocks& blocks, Arena& arena)
+    : slots_(arena.take<Slot>(blocks.count())),
+      entries_(arena.take<SliceEntry>(kFirstRoom)),
+      entry_capacity_(kFirstRoom) {
+  std::memset(static_cast<void*>(slots_), 0, blocks.count() * sizeof(Slot));
+  entries_[0] = {0, 0, 0, 0, 0, 0, 1, -1};
 }
 
-void TimeSlices::add_slice() {
-  const std::size_t blocks = blocks_.count();
-  // About as many entries as the slice before.
-  const std::uint32_t room = slices_.empty() ? 16 : std::max(slices_.back().entry_count, 16U);
-  Slice slice{arena_.take<Slot>(blocks), arena_.take<SliceEntry>(room), nullptr, 1, room, 0, 1, 0, 0};
-  std::memset(static_cast<void*>(slice.slots), 0, blocks * sizeof(Slot));
-  slice.entries[0] = {0, 0, 0, 0, 1, -1, 0, 0};
-  slices_.push_back(slice);
+Slice::Slice(const Slice& before, const Blocks& blocks, Arena& arena) : Slice(before) {
+  slots_ = copy(slots_, blocks.count(), blocks.count(), arena);
+  entries_ = copy(entries_, entry_count_, entry_capacity_, arena);
+  more_ = copy(more_, more_count_, more_capacity_, arena);
 }
 
-SliceEntry TimeSlices::part_of(const MovingDisk& disk, std::size_t slice, std::uint32_t id) const {
-  const double begin_s = static_cast<double>(slice) / per_second_;
-  const Vec2 place = disk.from + disk.velocity * (begin_s - disk.begin_s);
-  const Vec2 velocity = disk.velocity * (1 / per_second_);
-  const auto clipped = [](double slices) { return static_cast<float>(std::clamp(slices, -1.0, 2.0)); };
-  return {static_cast<float>(place.x),
-          static_cast<float>(place.y),
-          static_cast<float>(velocity.x),
-          static_cast<float>(velocity.y),
-          clipped((disk.begin_s - time_margin_s_ - begin_s) * per_second_ - kMargin),
-          clipped((disk.end_s + time_margin_s_ - begin_s) * per_second_ + kMargin),
-          static_cast<float>(disk.radius + disk.speed * (time_margin_s_ + kLostOfSpeed / per_second_)),
-          id};
+bool Slice::fits(const Sweep& sweep, const Blocks& blocks) const {
+  std::size_t more = more_count_;
+  if (more + blocks.count() > kMostEntries) blocks.for_each_near(sweep, [&](std::size_t) { ++more; });
+  return entry_count_ < kMostEntries && more <= kMostEntries;
 }
 
-template <class Visit>
-void TimeSlices::for_each_block(const MovingDisk& disk, std::size_t slice, Visit&& visit) const {
-  const double begin_s = (static_cast<double>(slice) - kMargin) / per_second_ - time_margin_s_;
-  const double end_s = (static_cast<double>(slice + 1) + kMargin) / per_second_ + time_margin_s_;
-  const auto place_at = [&](double time_s) {
-    return disk.from + disk.velocity * (std::clamp(time_s, disk.begin_s, disk.end_s) - disk.begin_s);
-  };
-  blocks_.for_each_near(place_at(begin_s), place_at(end_s), disk.radius, visit);
+void Slice::put(const SliceEntry& entry, const Sweep& sweep, const Blocks& blocks, Arena& arena) {
+  std::uint32_t id = free_entry_;
+  if (id != 0) {
+    free_entry_ = entries_[id].disk;
+  } else {
+    id = entry_count_++;
+    make_room(entries_, id, entry_capacity_, arena);
+  }
+  entries_[id] = entry;
+  blocks.for_each_near(sweep,
+                       [&](std::size_t block) { push(slots_[block], static_cast<EntryId>(id), arena); });
 }
 
-void TimeSlices::push(Slice& in, Slot& slot, EntryId entry) {
+void Slice::push(Slot& slot, EntryId entry, Arena& arena) {
   if (slot.is_full()) {
-    std::uint32_t more = in.free_more;
+    std::uint32_t more = free_more_;
     if (more != 0) {
-      in.free_more = static_cast<std::uint32_t>(in.more[more].low);
+      free_more_ = static_cast<std::uint32_t>(more_[more].low);
     } else {
-      more = in.more_count++;
-      if (more >= in.more_capacity) {
-        const std::uint32_t capacity = std::max(2 * in.more_capacity, 16U);
-        Slot* const larger = arena_.take<Slot>(capacity);
-        if (in.more_capacity > 0) {
-          std::memcpy(static_cast<void*>(larger), in.more, in.more_capacity * sizeof(Slot));
-          arena_.give_back(in.more, in.more_capacity);
-        }
-        in.more = larger;
-        in.more_capacity = capacity;
-      }
+      more = more_count_++;
+      make_room(more_, more, more_capacity_, arena);
     }
-    in.more[more] = slot;
+    more_[more] = slot;
     slot = {0, std::uint64_t{more} << kMoreShift};
   }
   slot.push(entry);
 }
 
-bool TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
-  Span span{};
-  if (!find_span(disk, span)) return false;
-  while (slices_.size() <= span.last) add_slice();
-  for (std::size_t slice = span.first; slice <= span.last; ++slice) {
-    const Slice& in = slices_[slice];
-    std::size_t blocks = 0;
-    if (in.more_count + blocks_.count() > kMostEntries)
-      for_each_block(disk, slice, [&](std::size_t) { ++blocks; });
-    if (in.entry_count >= kMostEntries || in.more_count + blocks > kMostEntries) return false;
-  }
-  for (std::size_t slice = span.first; slice <= span.last; ++slice) {
-    Slice& in = slices_[slice];
-    std::uint32_t entry = in.free_entry;
-    if (entry != 0) {
-      in.free_entry = in.entries[entry].disk;
-    } else {
-      entry = in.entry_count++;
-      if (entry == in.entry_capacity) {
-        SliceEntry* const larger = arena_.take<SliceEntry>(2 * std::size_t{in.entry_capacity});
-        std::memcpy(static_cast<void*>(larger), in.entries, in.entry_capacity * sizeof(SliceEntry));
-        arena_.give_back(in.entries, in.entry_capacity);
-        in.entries = larger;
-        in.entry_capacity *= 2;
-      }
-    }
-    in.entries[entry] = part_of(disk, slice, id);
-    for_each_block(disk, slice,
-                   [&](std::size_t block) { push(in, in.slots[block], static_cast<EntryId>(entry)); });
-  }
-  return true;
+void Slice::remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks) {
+  EntryId entry = 0;
+  blocks.for_each_near(sweep, [&](std::size_t block) { entry = take_out(slots_[block], disk); });
+  entries_[entry].disk = free_entry_;
+  free_entry_ = entry;
 }
 
-TimeSlices::EntryId TimeSlices::take_out(Slice& in, Slot& head, std::uint32_t id) {
+Slice::EntryId Slice::take_out(Slot& head, std::uint32_t disk) {
   // The newest of the first slot takes the place of the one that goes.
   const auto newest = static_cast<EntryId>(head.low & UINT16_MAX);
-  for (Slot* slot = &head;; slot = &in.more[slot->high >> kMoreShift]) {
+  for (Slot* slot = &head;; slot = &more_[slot->high >> kMoreShift]) {
     for (std::uint64_t* word : {&slot->low, &slot->high}) {
       const int most = word == &slot->low ? kMoreShift : kMoreShift - kIdBits;
       for (int shift = 0; shift <= most; shift += kIdBits) {
         const auto entry = static_cast<EntryId>(*word >> shift & UINT16_MAX);
-        if (entry == 0 || in.entries[entry].disk != id) continue;
+        if (entry == 0 || entries_[entry].disk != disk) continue;
         *word ^= std::uint64_t{static_cast<EntryId>(entry ^ newest)} << shift;
         head.pop();
         const std::uint64_t more = head.high >> kMoreShift;
         if (head.low == 0 && more != 0) {
-          head = in.more[more];
-          in.more[more].low = in.free_more;
-          in.free_more = static_cast<std::uint32_t>(more);
+          head = more_[more];
+          more_[more].low = free_more_;
+          free_more_ = static_cast<std::uint32_t>(more);
         }
         return entry;
       }
@@ -138,15 +119,85 @@ TimeSlices::EntryId TimeSlices::take_out(Slice& in, Slot& head, std::uint32_t id
   }
 }
 
+void TimeSlices::clear() {
+  slices_.abandon();
+  others_.abandon();
+  other_.clear();
+  slices_.push_back(Slice(blocks_, arena_));
+}
+
+TimeSlices::Span TimeSlices::span_of(const MovingDisk& disk) const {
+  const double first = (disk.begin_s - time_margin_s_) * per_second_ - kMargin;
+  const double last = (disk.end_s + time_margin_s_) * per_second_ + kMargin;
+  const bool for_ever = disk.end_s == kForever;
+  if (!((for_ever ? first : last) < kMostSlices) ||
+      (!for_ever && last - first > kLongestRest + kMostForCell * disk.way.length)) {
+    return {1, 0};
+  }
+  const auto begin = static_cast<std::size_t>(std::max(first, 0.0));
+  if (for_ever) return {begin, std::max(begin + 1, slices_.size() - 1)};
+  return {begin, static_cast<std::size_t>(std::max(last, 0.0))};
+}
+
+SliceEntry TimeSlices::part_of(const MovingDisk& disk, std::size_t slice, std::uint32_t id) const {
+  const double begin_s = static_cast<double>(slice) * slice_s_;
+  const Vec2 place = disk.from + disk.velocity * (begin_s - disk.begin_s);
+  const Vec2 velocity = disk.velocity * slice_s_;
+  const auto clipped = [](double slices) { return static_cast<float>(std::clamp(slices, -1.0, 2.0)); };
+  return {static_cast<float>(place.x),
+          static_cast<float>(place.y),
+          static_cast<float>(disk.radius + disk.speed * (time_margin_s_ + kLostOfSpeed * slice_s_)),
+          id,
+          static_cast<float>(velocity.x),
+          static_cast<float>(velocity.y),
+          clipped((disk.begin_s - time_margin_s_ - begin_s) * per_second_ - kMargin),
+          clipped((disk.end_s + time_margin_s_ - begin_s) * per_second_ + kMargin)};
+}
+
+Sweep TimeSlices::sweep_of(const MovingDisk& disk, std::size_t slice) const {
+  const double begin_s = (static_cast<double>(slice) - kMargin) * slice_s_ - time_margin_s_;
+  const double end_s = (static_cast<double>(slice + 1) + kMargin) * slice_s_ + time_margin_s_;
+  const auto place_at = [&](double time_s) {
+    return disk.from + disk.velocity * (std::clamp(time_s, disk.begin_s, disk.end_s) - disk.begin_s);
+  };
+  return {place_at(begin_s), place_at(end_s), disk.radius};
+}
+
+void TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
+  if (id >= other_.size()) other_.resize(id + 1);
+  const Span span = span_of(disk);
+  bool fits = span.first <= span.last;
+  for (std::size_t slice = span.first; slice <= span.last && fits; ++slice) {
+    while (slice + (disk.end_s == kForever ? 0 : 1) >= slices_.size()) {
+      slices_.push_back(Slice(slices_.back(), blocks_, arena_));
+    }
+    fits = slices_[slice].fits(sweep_of(disk, slice), blocks_);
+  }
+  other_[id] = 0;
+  if (fits) {
+    for (std::size_t slice = span.first; slice <= span.last; ++slice) {
+      slices_[slice].put(part_of(disk, slice, id), sweep_of(disk, slice), blocks_, arena_);
+    }
+    return;
+  }
+  const Sweep all{disk.from, disk.way.to, disk.radius};
+  const Vec2 middle = (disk.from + disk.way.to) * 0.5;
+  const double radius = disk.radius + disk.way.length / 2 + disk.speed * time_margin_s_;
+  if (others_.empty() || !others_.back().fits(all, blocks_)) others_.push_back(Slice(blocks_, arena_));
+  others_.back().put({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(radius),
+                      id, 0, 0, -1, 2},
+                     all, blocks_, arena_);
+  other_[id] = static_cast<std::uint16_t>(others_.size());
+}
+
 void TimeSlices::remove(const MovingDisk& disk, std::uint32_t id) {
-  Span span{};
-  find_span(disk, span);
+  if (other_[id] != 0) {
+    others_[other_[id] - std::size_t{1}].remove(id, {disk.from, disk.way.to, disk.radius}, blocks_);
+    return;
+  }
+  const Span span = span_of(disk);
   for (std::size_t slice = span.first; slice <= span.last; ++slice) {
-    Slice& in = slices_[slice];
-    EntryId entry = 0;
-    for_each_block(disk, slice, [&](std::size_t block) { entry = take_out(in, in.slots[block], id); });
-    in.entries[entry].disk = in.free_entry;
-    in.free_entry = entry;
+    slices_[slice].remove(id, sweep_of(disk, slice), blocks_);
   }
 }
 

@@ -1,10 +1,11 @@
-// Short motions, found by place and time: the part of a ReservationTable that most queries are about.
+// Disks in motion and at rest, found by place and time: what queries of a ReservationTable look through.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "planner/core/arena.hpp"
 #include "planner/geometry/moving_disk.hpp"
@@ -12,6 +13,13 @@
 #include "planner/reservation/near_filter.hpp"
 
 namespace sipplab {
+
+/// Where a disk is during some time.
+struct Sweep {
+  Vec2 from;
+  Vec2 to;
+  double radius;
+};
 
 /// Blocks of cells, each small enough that the disks which matter to a robot in it are few. A disk matters to
 /// a block where it comes nearer to the block's square than its radius and `room` together.
@@ -22,14 +30,13 @@ class Blocks {
 
   std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
   /// The block of a place on the map.
-  std::size_t at(double x, double y) const {
-    return static_cast<std::size_t>((static_cast<std::int32_t>(y + kHalfCell) >> shift_) * columns_ +
-                                    (static_cast<std::int32_t>(x + kHalfCell) >> shift_));
+  std::size_t at(Vec2 place) const {
+    return static_cast<std::size_t>((static_cast<std::int32_t>(place.y + kHalfCell) >> shift_) * columns_ +
+                                    (static_cast<std::int32_t>(place.x + kHalfCell) >> shift_));
   }
-  /// Calls visit(block) for each block to which a disk matters that moves straight between the two points,
-  /// and for a few more.
+  /// Calls visit(block) for each block to which the disk matters, and for a few more.
   template <class Visit>
-  void for_each_near(Vec2 from, Vec2 to, double radius, Visit&& visit) const;
+  void for_each_near(const Sweep& sweep, Visit&& visit) const;
 
  private:
   static constexpr double kHalfCell = 0.5;
@@ -40,66 +47,42 @@ class Blocks {
   std::int32_t rows_ = 0;
 };
 
-/// For each slice of time and each block, the disks that matter there. A slot of 16 bytes holds the places of
-/// seven entries of its slice, zero for none, and that of a slot with more.
-class TimeSlices {
+/// The disks of one slice of time, by block. A slot of 16 bytes holds the places of seven entries, zero for
+/// none, and that of a slot with more.
+class Slice {
  public:
-  /// Memory comes from the arena. A slice takes `slice_s`.
-  TimeSlices(const Blocks& blocks, double slice_s, double time_margin_s, Arena& arena)
-      : blocks_(blocks),
-        slice_s_(slice_s),
-        per_second_(1 / slice_s),
-        time_margin_s_(time_margin_s),
-        arena_(arena),
-        slices_(arena) {}
+  Slice(const Blocks& blocks, Arena& arena);
+  /// With the same disks.
+  Slice(const Slice& before, const Blocks& blocks, Arena& arena);
 
-  /// Forgets all, after a reset of the arena.
-  void abandon() { slices_.abandon(); }
+  bool is_empty(std::size_t block) const { return slots_[block].low == 0; }
 
-  /// False where the disk does not fit: it stays for too long, or there are too many; nothing changes then.
-  bool put(const MovingDisk& disk, std::uint32_t id);
-  /// REQUIRES: the same was put and not removed since.
-  void remove(const MovingDisk& disk, std::uint32_t id);
-
-  double per_second() const { return per_second_; }
-  double slice_s() const { return slice_s_; }
-  /// By so much disks are taken to stay longer, at least.
-  double margin_s() const { return kMargin / 2 * slice_s_; }
-  std::size_t size() const { return slices_.size(); }
-
-  /// Shows test(disk) those that may come nearer to a robot than the sum of the radii, until it says yes:
-  /// whether it did. During [begin_s, end_s], in slice `slice`, the robot is at `place` + `velocity` * time,
-  /// and near the middle of it in the block.
+  /// Shows test(disk) those that may come nearer to a robot in the block than the sum of the radii, until it
+  /// says yes: whether it did.
   template <class Test>
-  bool any_near(std::size_t slice, std::size_t block, const NearFilter& filter, Test&& test) const {
-    if (slice >= slices_.size()) return false;
-    const Slice& in = slices_[slice];
-    const Slot* slot = &in.slots[block];
+  bool any_near(std::size_t block, const NearFilter& filter, Test&& test) const {
+    const Slot* slot = &slots_[block];
     if (slot->low == 0) return false;
-    const SliceEntry* const entries = in.entries;
     while (true) {
-      if (any_of_four(entries, slot->low, filter, test)) return true;
+      if (any_of_four(slot->low, filter, test)) return true;
       const std::uint64_t high = slot->high & kIdsOfHigh;
-      if (high != 0 && any_of_four(entries, high, filter, test)) return true;
+      if (high != 0 && any_of_four(high, filter, test)) return true;
       const std::uint64_t more = slot->high >> kMoreShift;
       if (more == 0) return false;
-      slot = &in.more[more];
+      slot = &more_[more];
     }
   }
+
+  /// Whether there is room for one more.
+  bool fits(const Sweep& sweep, const Blocks& blocks) const;
+  /// REQUIRES: it fits.
+  void put(const SliceEntry& entry, const Sweep& sweep, const Blocks& blocks, Arena& arena);
+  /// REQUIRES: the same was put and not removed since.
+  void remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks);
 
  private:
   using EntryId = std::uint16_t;
   static constexpr std::size_t kMostEntries = UINT16_MAX;
-  /// Slices. Disks that stand for longer are none of ours, nor those that move so slowly, nor those of later
-  /// times.
-  static constexpr double kLongestStand = 3;
-  static constexpr double kMostForCell = 8;
-  static constexpr double kMostSlices = 4096;
-  /// Slices. Covers roundings to floats within a slice, and of the time at which it begins.
-  static constexpr double kMargin = 1e-5;
-  /// Cells for each cell per slice. What floats lose of the places of very fast disks.
-  static constexpr double kLostOfSpeed = 1e-6;
-
   static constexpr int kIdBits = 16;
   static constexpr int kMoreShift = 48;
   static constexpr std::uint64_t kIdsOfHigh = (std::uint64_t{1} << kMoreShift) - 1;
@@ -113,42 +96,96 @@ class TimeSlices {
       high = (high & ~kIdsOfHigh) | ((high << kIdBits | low >> kMoreShift) & kIdsOfHigh);
       low = low << kIdBits | id;
     }
-    EntryId pop() {
-      const auto id = static_cast<EntryId>(low & UINT16_MAX);
+    void pop() {
       low = low >> kIdBits | high << kMoreShift;
       high = (high & ~kIdsOfHigh) | (high & kIdsOfHigh) >> kIdBits;
-      return id;
     }
-  };
-  struct Slice {
-    Slot* slots;          ///< by block
-    SliceEntry* entries;  ///< the first is nowhere
-    Slot* more;           ///< the first is unused
-    std::uint32_t entry_count, entry_capacity, free_entry;
-    std::uint32_t more_count, more_capacity, free_more;
-  };
-  struct Span {
-    std::size_t first;
-    std::size_t last;
   };
 
   template <class Test>
-  static bool any_of_four(const SliceEntry* entries, std::uint64_t ids, const NearFilter& filter,
-                          Test& test) {
-    const auto entry = [&](int i) -> const SliceEntry& { return entries[ids >> (kIdBits * i) & UINT16_MAX]; };
+  bool any_of_four(std::uint64_t ids, const NearFilter& filter, Test& test) const {
+    const auto entry = [&](int i) -> const SliceEntry& {
+      return entries_[ids >> (kIdBits * i) & UINT16_MAX];
+    };
     for (unsigned near = filter.near(entry(0), entry(1), entry(2), entry(3)); near != 0; near &= near - 1) {
       if (test(entry(std::countr_zero(near)).disk)) return true;
     }
     return false;
   }
+  void push(Slot& slot, EntryId entry, Arena& arena);
+  EntryId take_out(Slot& slot, std::uint32_t disk);
 
-  bool find_span(const MovingDisk& disk, Span& span) const;
-  void add_slice();
+  Slot* slots_;           ///< by block
+  SliceEntry* entries_;   ///< the first is nowhere
+  Slot* more_ = nullptr;  ///< the first is unused
+  std::uint32_t entry_count_ = 1, entry_capacity_, free_entry_ = 0;
+  std::uint32_t more_count_ = 1, more_capacity_ = 0, free_more_ = 0;
+};
+
+/// Disks lie in each slice of time that they meet. The last slice has nothing but what rests for ever, goals
+/// above all, and stands for all later times. What would be in too many slices, or beyond them, is taken to
+/// be in a circle about its middle at all times.
+class TimeSlices {
+ public:
+  /// Memory comes from the arena. A slice takes `slice_s`.
+  TimeSlices(const Blocks& blocks, double slice_s, double time_margin_s, Arena& arena)
+      : blocks_(blocks),
+        slice_s_(slice_s),
+        per_second_(1 / slice_s),
+        time_margin_s_(time_margin_s),
+        arena_(arena),
+        slices_(arena),
+        others_(arena) {
+    clear();
+  }
+
+  /// Forgets all, after a reset of the arena.
+  void clear();
+
+  void put(const MovingDisk& disk, std::uint32_t id);
+  /// REQUIRES: the same was put and not removed since.
+  void remove(const MovingDisk& disk, std::uint32_t id);
+
+  double per_second() const { return per_second_; }
+  double slice_s() const { return slice_s_; }
+  /// By so much disks are taken to stay longer, at least.
+  double margin_s() const { return kMargin / 2 * slice_s_; }
+
+  /// As of Slice, in slice number `slice` and among what stays. During [begin_s, end_s] of the slice the
+  /// robot is at `origin` + velocity * time, absolute, and near the middle of it in the block.
+  template <class Test>
+  bool any_near(std::size_t slice, std::size_t block, NearFilter& filter, Vec2 origin, Vec2 velocity,
+                double begin_s, double end_s, Test&& test) const {
+    const Slice& in = slices_[std::min(slice, slices_.size() - 1)];
+    if (in.is_empty(block) && others_.empty()) return false;
+    const double slice_s = static_cast<double>(slice) * slice_s_;
+    filter.set(origin + velocity * slice_s, (begin_s - slice_s) * per_second_,
+               (end_s - slice_s) * per_second_);
+    return in.any_near(block, filter, test) ||
+           std::any_of(others_.begin(), others_.end(),
+                       [&](const Slice& others) { return others.any_near(block, filter, test); });
+  }
+
+ private:
+  /// Slices. Disks that rest for longer are listed apart, and those that move so slowly, and those of later
+  /// times.
+  static constexpr double kLongestRest = 64;
+  static constexpr double kMostForCell = 8;
+  static constexpr double kMostSlices = 4096;
+  /// Slices. Covers roundings to floats within a slice, and of the time at which it begins.
+  static constexpr double kMargin = 1e-5;
+  /// Cells for each cell per slice. What floats lose of the places of very fast disks.
+  static constexpr double kLostOfSpeed = 1e-6;
+
+  struct Span {
+    std::size_t first;
+    std::size_t last;
+  };
+
+  /// Empty for a disk that is not for slices; to the last one there is for what rests for ever.
+  Span span_of(const MovingDisk& disk) const;
   SliceEntry part_of(const MovingDisk& disk, std::size_t slice, std::uint32_t id) const;
-  template <class Visit>
-  void for_each_block(const MovingDisk& disk, std::size_t slice, Visit&& visit) const;
-  void push(Slice& in, Slot& slot, EntryId entry);
-  EntryId take_out(Slice& in, Slot& slot, std::uint32_t id);
+  Sweep sweep_of(const MovingDisk& disk, std::size_t slice) const;
 
   const Blocks& blocks_;
   double slice_s_;
@@ -156,13 +193,15 @@ class TimeSlices {
   double time_margin_s_;
   Arena& arena_;
   ArenaVector<Slice> slices_;
+  ArenaVector<Slice> others_;         ///< what is in no slice; as many as it takes
+  std::vector<std::uint16_t> other_;  ///< by disk: number of the one in others_; 0: it is in slices
 };
 
 template <class Visit>
-void Blocks::for_each_near(Vec2 from, Vec2 to, double radius, Visit&& visit) const {
-  const double reach = radius + room_;
-  const auto [left, right] = std::minmax(from.x, to.x);
-  const auto [top, bottom] = std::minmax(from.y, to.y);
+void Blocks::for_each_near(const Sweep& sweep, Visit&& visit) const {
+  const double reach = sweep.radius + room_;
+  const auto [left, right] = std::minmax(sweep.from.x, sweep.to.x);
+  const auto [top, bottom] = std::minmax(sweep.from.y, sweep.to.y);
   const double side = 1 << shift_;
   const double per_side = 1 / side;
   const auto block_of = [&](double low, std::int32_t most) {

@@ -1,5 +1,5 @@
 // OPEN: nodes by least f, then greatest g, then first come. Besides settled nodes it
-// holds promises: ways to a node whose arrival is only bounded from below so far.
+// holds lazy successors: ways to a node whose arrival is only bounded from below so far.
 // Entries that were overtaken stay in the list and are recognised when they come up.
 #pragma once
 
@@ -21,13 +21,13 @@ class OpenList {
 
   struct Entry {
     double f;
-    double arrival_s;  ///< g when queued; for a promise a lower bound on it
+    double arrival_s;  ///< g when queued; for a lazy successor a lower bound on it
     NodeId node;
-    NodeId from;         ///< for a promise the node next to it, kNoNode for a settled one
-    NodeId parent;       ///< for a promise the node from which it may be reached straight, or kNoNode
+    NodeId from;         ///< for a lazy successor the node next to it, kNoNode for a settled one
+    NodeId parent;       ///< for a lazy successor the one from which it may be reached straight, or kNoNode
     std::uint32_t link;  ///< in a bucket the entry below it, on the heap when it came
 
-    bool is_promise() const { return from != kNoNode; }
+    bool is_lazy() const { return from != kNoNode; }
   };
 
   bool empty() const { return size_ == 0; }
@@ -47,8 +47,8 @@ class OpenList {
   /// A node with its arrival. O(log size of a bucket).
   void push(NodeId node, double f, double arrival_s) { push({f, arrival_s, node, kNoNode, kNoNode, 0}); }
 
-  /// A promise. O(log size of a bucket).
-  void push_promise(NodeId node, double f, double arrival_s, NodeId from, NodeId parent) {
+  /// A lazy successor. O(log size of a bucket).
+  void push_lazy(NodeId node, double f, double arrival_s, NodeId from, NodeId parent) {
     push({f, arrival_s, node, from, parent, 0});
   }
 

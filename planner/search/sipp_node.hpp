@@ -30,12 +30,6 @@ struct alignas(64) SippNode {
   std::uint16_t way_version = 0;
 
   Cell cell() const { return {x, y}; }
-  /// Whether an arrival no earlier than `soonest_s` may be in the interval and earlier than the one that is
-  /// known.
-  bool may_gain(double soonest_s) const {
-    const double earliest_s = interval.begin_s > soonest_s ? interval.begin_s : soonest_s;
-    return earliest_s <= interval.end_s && earliest_s < arrival_s;
-  }
   /// REQUIRES: arrives_s <= arrival_s.
   void reach(NodeId from, double leaves_s, double arrives_s) {
     if (arrives_s < arrival_s && version < kLastVersion) ++version;
@@ -46,6 +40,11 @@ struct alignas(64) SippNode {
   /// Whether `way_departure_s` holds for node `id`.
   bool knows_way_from(NodeId id, const SippNode& from) const {
     return way_from == id && way_version == from.version && from.version < kLastVersion;
+  }
+  void know_way_from(NodeId id, std::uint16_t from_version, double departs_s) {
+    way_from = id;
+    way_version = from_version;
+    way_departure_s = departs_s;
   }
   static constexpr std::uint16_t kLastVersion = UINT16_MAX;
 };

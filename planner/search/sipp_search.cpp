@@ -1,9 +1,28 @@
+// SIPP in twenty lines. A state is a cell together with one of its safe intervals, the maximal closed spans
+// of time in which the robot may stay there; of all arrivals in one interval the earliest is the best, since
+// whoever comes early can wait. So A* runs over a small graph although time is continuous: g is the arrival,
+// h the time to the goal at least, and OPEN is ordered by f = g + weight * h.
+//
+// Successors are lazy. An expanded node offers its neighbours with the arrival that no obstacle delays; only
+// when such an entry comes up is the reservation table asked for the earliest safe departure. If the arrival
+// is as early as offered the node is expanded at once, else it is queued again with what it is worth. Most
+// entries never come up.
+//
+// At any angle a node also offers each neighbour straight from its own parent [YA17]. Of two ways that arrive
+// together the one over the nearer node is kept. From each expanded node the goal is tried straight (the goal
+// shot): nothing in OPEN is smaller than its f, so a shot that is not delayed ends the search.
+//
+// What is guaranteed, with h a lower bound on ways by steps: nobody arrives later than `weight` times the
+// earliest arrival by steps alone, for each state of the earliest way by steps is offered no later than on
+// it. Ways that are found are safe against all that is reserved, contacts included. Same input, same way.
+// Departures from [YA17]: they are exact, not tried in steps.
+//
+// Robots with headings have more states (motion.hpp); the search is the same.
 #include "planner/search/sipp_search.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "planner/core/assert.hpp"
 #include "planner/grid/neighbourhood.hpp"
 
 namespace sipplab {
@@ -17,14 +36,16 @@ constexpr double kBucketCells = 0.03;
 constexpr double kSoonerS = 1e-6;
 
 /// Expansions between two looks at the clock; one takes some microseconds.
-constexpr std::uint64_t kExpansionsPerClockCheck = 64;
+constexpr std::uint64_t kExpansionsPerLook = 64;
 
 }  // namespace
 
-SippSearch::SippSearch(const Instance& instance, SippOptions options)
+template <class Motion>
+Sipp<Motion>::Sipp(const Instance& instance, SippOptions options)
     : instance_(instance),
       options_(options),
       bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.detours})),
+      motion_(Agent{}, options_.rules),
       cell_nodes_(arena_),
       nodes_(arena_),
       open_(arena_) {
@@ -32,190 +53,117 @@ SippSearch::SippSearch(const Instance& instance, SippOptions options)
   for (const Cell step : neighbourhood(options.connectedness)) step_lengths_.push_back(norm(centre(step)));
 }
 
-Expected<Trajectory, PlanFailure> SippSearch::plan(AgentIndex agent, ReservationTable& reservations,
-                                                   const SearchLimits& limits, SearchStatistics& statistics) {
-  begin(agent, reservations);
-  const CellNodes at_goal = nodes_of(agent_->goal);
-  const CellNodes at_start = nodes_of(agent_->start);
-  if (at_goal.first == at_goal.last || nodes_[at_goal.last - 1].interval.end_s < kForever ||
-      at_start.first == at_start.last || nodes_[at_start.first].interval.begin_s > 0) {
+template <class Motion>
+Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, ReservationTable& reservations,
+                                                     const SearchLimits& limits,
+                                                     SearchStatistics& statistics) {
+  statistics_ = &statistics;
+  begin(instance_.agents[agent], reservations);
+  const CellNodes goals = nodes_of(agent_->goal);
+  const CellNodes starts = nodes_of(agent_->start);
+  if (goals.first == goals.last || starts.first == starts.last) return Unexpected{PlanFailure::kNoPath};
+  const SafeInterval& rest = nodes_[goals.last - 1].interval;
+  if (rest.end_s < kForever || rest.begin_s > limits.latest_arrival_s ||
+      nodes_[starts.first].interval.begin_s > 0) {
     return Unexpected{PlanFailure::kNoPath};
   }
-  if (nodes_[at_goal.last - 1].interval.begin_s > limits.latest_arrival_s) {
-    return Unexpected{PlanFailure::kNoPath};
-  }
-  nodes_[at_start.first].reach(kNoNode, 0, 0);
-  open_.push(at_start.first, f(nodes_[at_start.first]), 0);
+  const Heading heading = motion_.start_heading();
+  const NodeId start = motion_.node_for(nodes_, starts.first, heading, to_goal_s(starts.first, heading));
+  nodes_[start].reach(kNoNode, 0, 0);
+  open_.push(start, f(nodes_[start]), 0);
 
   const std::uint64_t expansions_before = statistics.expansions;
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
-    const NodeId id = entry.node;
     // No entry has a smaller f, and nobody arrives by steps before f / weight.
     if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     if (is_overtaken(entry)) continue;
-    if (entry.is_promise()) {
-      if (!relax(entry.from, entry.parent, id, statistics)) continue;
-      // Kept to the letter, the promise makes its node the next one of OPEN at once.
+    NodeId id = entry.node;
+    if (entry.is_lazy()) {
+      id = evaluate(entry.from, entry.parent, entry.node);
+      if (id == kNoNode) continue;
       if (f(nodes_[id]) > entry.f) {
         open_.push(id, f(nodes_[id]), nodes_[id].arrival_s);
         continue;
       }
     }
     if (is_goal(nodes_[id])) return finish(id);
-    if (statistics.expansions - expansions_before >= limits.max_expansions) {
-      return Unexpected{PlanFailure::kExpansionLimit};
-    }
-    if (statistics.expansions % kExpansionsPerClockCheck == 0 && limits.is_over()) {
-      return Unexpected{PlanFailure::kTimeLimit};
-    }
+    const std::uint64_t expansions = statistics.expansions - expansions_before;
+    if (expansions >= limits.max_expansions) return Unexpected{PlanFailure::kExpansionLimit};
+    if (expansions % kExpansionsPerLook == 0 && limits.is_over()) return Unexpected{PlanFailure::kTimeLimit};
     ++statistics.expansions;
-    if (options_.any_angle && options_.direct_shot && shoot(id, statistics)) {
-      return finish(at_goal.last - 1);
+    if (const NodeId goal = shoot(id); goal != kNoNode) {
+      if constexpr (!Motion::kTurns) return finish(goal);
+      open_.push(goal, f(nodes_[goal]), nodes_[goal].arrival_s);  // turns may come first, or last
     }
-    expand(id, statistics);
+    expand(id);
   }
   return Unexpected{PlanFailure::kNoPath};
 }
 
-double SippSearch::lower_bound_s(AgentIndex agent) const {
+template <class Motion>
+double Sipp<Motion>::lower_bound_s(AgentIndex agent) const {
   const Agent& asked = instance_.agents[agent];
-  const double cells = options_.any_angle
-                           ? distance(asked.start, asked.goal)
-                           : neighbourhood_distance(asked.start, asked.goal, options_.connectedness);
-  return cells / asked.speed_cells_per_s;
+  const Motion motion(asked, options_.rules);
+  return line_cells(asked.start, asked.goal) / asked.speed_cells_per_s +
+         motion.standing_s(asked.start, motion.start_heading());
 }
 
-void SippSearch::begin(AgentIndex agent, ReservationTable& reservations) {
-  agent_ = &instance_.agents[agent];
-  body_ = &bodies_.at(agent_->radius_cells);
-  if (options_.detours) body_->set_goal(agent_->goal);
+template <class Motion>
+void Sipp<Motion>::begin(const Agent& agent, ReservationTable& reservations) {
+  agent_ = &agent;
+  motion_ = Motion(agent, options_.rules);
+  moving_radius_ = agent.radius_cells + options_.rules.inflate_distance_cells;
+  body_ = &bodies_.at(agent.radius_cells);
+  if (options_.detours) body_->set_goal(agent.goal);
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
   shot_blocker_ = way_blocker_ = ReservationTable::kNoDisk;
-  open_.begin(options_.weight * heuristic_s(agent_->start), kBucketCells / agent_->speed_cells_per_s);
+  const double least_s = heuristic_s(agent.start) + motion_.standing_s(agent.start, motion_.start_heading());
+  open_.begin(options_.weight * least_s, kBucketCells / agent.speed_cells_per_s);
 }
 
-const SippSearch::CellNodes& SippSearch::lay_out(Cell cell) {
+template <class Motion>
+const typename Sipp<Motion>::CellNodes& Sipp<Motion>::lay_out(Cell cell) {
   CellNodes& nodes = cell_nodes_[instance_.map.index(cell)];
   nodes.search = search_;
   nodes.first = static_cast<NodeId>(nodes_.size());
-  SippNode node;
+  Node node;
   node.to_goal_s = options_.weight * heuristic_s(cell);
   node.x = static_cast<std::int16_t>(cell.x);
   node.y = static_cast<std::int16_t>(cell.y);
-  const double soonest_s = travel_s(agent_->start, cell) - kSoonerS;
+  const double soonest_s = seconds(distance(agent_->start, cell)) - kSoonerS;
   for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
     if (interval.end_s < soonest_s) continue;  // nobody comes in time
     node.interval = interval;
+    if constexpr (Motion::kTurns) node.first = static_cast<NodeId>(nodes_.size());
     nodes_.push_back(node);
   }
   nodes.last = static_cast<NodeId>(nodes_.size());
   return nodes;
 }
 
-double SippSearch::heuristic_s(Cell cell) {
-  const double line_s = lower_bound_s(cell, agent_->goal);
+template <class Motion>
+double Sipp<Motion>::heuristic_s(Cell cell) {
+  const double line_s = seconds(line_cells(cell, agent_->goal));
   // The start is expanded first whatever it says, and is often the only one.
   if (!options_.detours || cell == agent_->start) return line_s;
   return line_s + body_->detour_cells(cell) / agent_->speed_cells_per_s;
 }
 
-double SippSearch::lower_bound_s(Cell from, Cell to) const {
-  const double cells =
-      options_.any_angle ? distance(from, to) : neighbourhood_distance(from, to, options_.connectedness);
-  return seconds(cells);
-}
-
-double SippSearch::travel_s(Cell from, Cell to) const { return seconds(distance(from, to)); }
-
-bool SippSearch::is_overtaken(const OpenList::Entry& entry) const {
-  const double known_s = nodes_[entry.node].arrival_s;
-  if (entry.arrival_s != known_s || !entry.is_promise()) return entry.arrival_s > known_s;
+template <class Motion>
+bool Sipp<Motion>::is_overtaken(const OpenList::Entry& entry) const {
+  const Node& node = nodes_[entry.node];
+  if (!entry.is_lazy()) return entry.arrival_s > motion_.known_s(nodes_, entry.node, motion_.heading(node));
+  const double known_s = motion_.known_s(nodes_, entry.node, heading_of(entry.from, entry.node));
+  if (entry.arrival_s != known_s) return entry.arrival_s > known_s;
   // By steps along a straight line one may arrive sooner, by a rounding, and that way is kept.
   return entry.parent == kNoNode || !is_on_the_way(entry.parent, entry.from, entry.node);
 }
 
-bool SippSearch::is_goal(const SippNode& node) const {
-  return node.cell() == agent_->goal && node.interval.end_s == kForever;
-}
-
-void SippSearch::expand(NodeId id, SearchStatistics& statistics) {
-  const Cell here = nodes_[id].cell();
-  const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
-  const Cell there = parent == kNoNode ? here : nodes_[parent].cell();
-  const std::span<const Cell> steps = neighbourhood(options_.connectedness);
-  std::uint32_t clear = body_->clear_steps(here, instance_.map.index(here));
-  for (; clear != 0; clear &= clear - 1) {
-    const auto step = static_cast<std::size_t>(std::countr_zero(clear));
-    const Cell cell{here.x + steps[step].x, here.y + steps[step].y};
-    const auto [search, first, last] = nodes_of(cell);
-    const SippNode& near = nodes_[id];
-    const double step_s = step_lengths_[step] / agent_->speed_cells_per_s;
-    const double by_step_s = near.arrival_s + step_s;
-    NodeId from = kNoNode;  // straight to the cell
-    double straight_s = step_s;
-    double soonest_s = by_step_s;
-    double latest_s = near.interval.end_s + step_s;
-    NodeId target = first;
-    if (parent != kNoNode && there != cell) {
-      // By the triangle inequality nobody arrives sooner than straight from the parent, seen or not.
-      const SippNode& far = nodes_[parent];
-      const double far_s = travel_s(there, cell);
-      const double far_soonest_s = far.arrival_s + far_s;
-      const double far_latest_s = std::max(latest_s, far.interval.end_s + far_s);
-      while (target != last && !nodes_[target].may_gain(far_soonest_s)) ++target;
-      if (target == last || nodes_[target].interval.begin_s > far_latest_s) continue;
-      if (body_->line_of_sight.is_clear(there, cell)) {
-        from = parent;
-        straight_s = far_s;
-        soonest_s = far_soonest_s;
-        latest_s = far_latest_s;
-      }
-    }
-    for (; target != last && nodes_[target].interval.begin_s <= latest_s; ++target) {
-      const SippNode& node = nodes_[target];
-      double sooner_s = soonest_s;
-      if (from != kNoNode && node.knows_way_from(from, nodes_[from])) {
-        sooner_s = std::min(std::max(sooner_s, node.way_departure_s + straight_s), by_step_s);
-      }
-      if (node.may_gain(sooner_s))
-        offer(id, from, target, std::max(sooner_s, node.interval.begin_s), statistics);
-    }
-  }
-}
-
-void SippSearch::offer(NodeId from, NodeId parent, NodeId id, double arrival_s,
-                       SearchStatistics& statistics) {
-  if (options_.lazy_evaluation) {
-    open_.push_promise(id, arrival_s + nodes_[id].to_goal_s, arrival_s, from, parent);
-  } else if (relax(from, parent, id, statistics)) {
-    open_.push(id, f(nodes_[id]), nodes_[id].arrival_s);
-  }
-}
-
-bool SippSearch::relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics) {
-  // Of two ways that arrive together the one over the nearer node is kept: it leaves the
-  // cells behind it sooner (trials on the paper's warehouse: 1 % less flowtime).
-  bool improved = false;
-  if (parent == kNoNode) {
-    improved = arrive_by_step(from, id, Tie::kKeep);
-  } else if (is_on_the_way(parent, from, id)) {
-    improved = arrive_by_step(from, id, Tie::kKeep);
-    // Without a wait the step is as good as the straight way.
-    const SippNode& target = nodes_[id];
-    const bool at_once = improved && target.departure_s == nodes_[from].arrival_s;
-    if (!at_once) improved = arrive_straight(parent, id) || improved;
-  } else {
-    improved = arrive_straight(parent, id);
-    improved = arrive_by_step(from, id, improved ? Tie::kReplace : Tie::kKeep) || improved;
-  }
-  if (improved) ++statistics.generations;
-  return improved;
-}
-
-bool SippSearch::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
+template <class Motion>
+bool Sipp<Motion>::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
   const Cell first = nodes_[parent].cell();
   const Cell middle = nodes_[from].cell();
   const Cell last = nodes_[id].cell();
@@ -226,86 +174,176 @@ bool SippSearch::is_on_the_way(NodeId parent, NodeId from, NodeId id) const {
   return cross == 0 && dot > 0;
 }
 
-bool SippSearch::arrive_straight(NodeId parent, NodeId id) {
-  const SippNode& origin = nodes_[parent];
-  SippNode& target = nodes_[id];
-  const double known_s = target.knows_way_from(parent, origin) ? target.way_departure_s : 0;
-  double departure_s = 0;
-  const bool arrived = arrive(parent, id, known_s, Tie::kKeep, &way_blocker_, departure_s);
-  if (departure_s > 0) {
-    target.way_from = parent;
-    target.way_version = origin.version;
-    target.way_departure_s = departure_s;
-  }
-  return arrived;
+template <class Motion>
+typename Sipp<Motion>::Way Sipp<Motion>::way(NodeId from, Cell to, double cells) const {
+  const Node& node = nodes_[from];
+  const double travel_s = cells / agent_->speed_cells_per_s;
+  const Heading heading = motion_.heading(node.cell(), to);
+  return {from, heading, travel_s, motion_.ready_s(node, heading) + travel_s, node.interval.end_s + travel_s};
 }
 
-bool SippSearch::arrive(NodeId from, NodeId id, double known_s, Tie tie,
-                        ReservationTable::DiskId* likely_blocker, double& departure_s) {
-  const SippNode& origin = nodes_[from];
-  SippNode& target = nodes_[id];
+template <class Motion>
+void Sipp<Motion>::expand(NodeId id) {
+  const Cell here = nodes_[id].cell();
+  const NodeId parent = options_.any_angle ? nodes_[id].parent : kNoNode;
+  const Cell there = parent == kNoNode ? here : nodes_[parent].cell();
+  const std::span<const Cell> steps = neighbourhood(options_.connectedness);
+  std::uint32_t clear = body_->clear_steps(here, instance_.map.index(here));
+  for (; clear != 0; clear &= clear - 1) {
+    const auto index = static_cast<std::size_t>(std::countr_zero(clear));
+    const Cell cell{here.x + steps[index].x, here.y + steps[index].y};
+    const CellNodes& targets = nodes_of(cell);
+    const Way step = way(id, cell, step_lengths_[index]);
+    if (parent == kNoNode || there == cell) {
+      offer(step, kNoNode, targets.first, targets.last);
+      continue;
+    }
+    Way straight = way(parent, cell, distance(there, cell));
+    if constexpr (Motion::kTurns) {
+      // The two arrive with two headings: each is a successor of its own.
+      offer(step, kNoNode, targets.first, targets.last);
+      if (body_->line_of_sight.is_clear(there, cell)) {
+        offer(straight, kNoNode, targets.first, targets.last);
+      }
+    } else {
+      // By the triangle inequality nobody arrives sooner than straight from the parent, seen or not.
+      straight.latest_s = std::max(step.latest_s, straight.latest_s);
+      NodeId target = targets.first;
+      while (target != targets.last && !may_gain(target, straight.heading, straight.soonest_s)) ++target;
+      if (target == targets.last || nodes_[target].interval.begin_s > straight.latest_s) continue;
+      if (body_->line_of_sight.is_clear(there, cell)) {
+        straight.from = id;
+        straight.step_soonest_s = step.soonest_s;
+        offer(straight, parent, target, targets.last);
+      } else {
+        offer(step, kNoNode, target, targets.last);
+      }
+    }
+  }
+}
+
+template <class Motion>
+void Sipp<Motion>::offer(const Way& way, NodeId parent, NodeId target, NodeId last) {
+  for (; target != last && nodes_[target].interval.begin_s <= way.latest_s; ++target) {
+    const Node& node = nodes_[target];
+    double soonest_s = way.soonest_s;
+    if (parent != kNoNode && node.knows_way_from(parent, nodes_[parent])) {
+      soonest_s = std::min(std::max(soonest_s, node.way_departure_s + way.travel_s), way.step_soonest_s);
+    }
+    if (!may_gain(target, way.heading, soonest_s)) continue;
+    soonest_s = std::max(soonest_s, node.interval.begin_s);
+    open_.push_lazy(target, soonest_s + to_goal_s(target, way.heading), soonest_s, way.from, parent);
+  }
+}
+
+template <class Motion>
+NodeId Sipp<Motion>::evaluate(NodeId from, NodeId parent, NodeId id) {
+  // Of two ways that arrive together the one over the nearer node is kept: it leaves the
+  // cells behind it sooner (trials on the paper's warehouse: 1 % less flowtime).
+  const bool on_the_way = parent != kNoNode && is_on_the_way(parent, from, id);
+  NodeId reached = kNoNode;
+  if (parent != kNoNode && !on_the_way) reached = arrive_straight(parent, id);
+  const NodeId by_step = arrive_by_step(from, id, reached == kNoNode ? Tie::kKeep : Tie::kReplace);
+  if (by_step != kNoNode) reached = by_step;
+  // Without a wait the step is as good as the straight way.
+  if (on_the_way && (by_step == kNoNode || nodes_[by_step].departure_s != nodes_[from].arrival_s)) {
+    if (const NodeId straight = arrive_straight(parent, id); straight != kNoNode) reached = straight;
+  }
+  if (reached != kNoNode) ++statistics_->generations;
+  return reached;
+}
+
+template <class Motion>
+NodeId Sipp<Motion>::arrive_straight(NodeId parent, NodeId id) {
+  const std::uint16_t version = nodes_[parent].version;
+  const Node& target = nodes_[id];
+  const double known_s = target.knows_way_from(parent, nodes_[parent]) ? target.way_departure_s : 0;
+  double departure_s = 0;
+  const NodeId reached = arrive(parent, id, known_s, Tie::kKeep, &way_blocker_, departure_s);
+  if (departure_s > 0) nodes_[id].know_way_from(parent, version, departure_s);
+  return reached;
+}
+
+template <class Motion>
+NodeId Sipp<Motion>::arrive(NodeId from, NodeId id, double known_s, Tie tie,
+                            ReservationTable::DiskId* likely_blocker, double& departure_s) {
+  const Node& origin = nodes_[from];
+  const Node& target = nodes_[id];
   const Vec2 begin = centre(origin.cell());
   const Vec2 end = centre(target.cell());
   const double cells = norm(end - begin);
   const double duration_s = seconds(cells);
-  const double from_s = std::max({origin.arrival_s, target.interval.begin_s - duration_s, known_s});
+  const Heading heading = heading_of(from, id);
+  const double arrived_s = motion_.known_s(nodes_, id, heading);
+  const double from_s =
+      std::max({motion_.ready_s(origin, heading), target.interval.begin_s - duration_s, known_s});
   const double until_s =
-      std::min({origin.interval.end_s, target.interval.end_s - duration_s, target.arrival_s - duration_s});
-  if (from_s > until_s) return false;
+      std::min({origin.interval.end_s, target.interval.end_s - duration_s, arrived_s - duration_s});
+  if (from_s > until_s) return kNoNode;
   const Move move(Displacement(begin, end, {(end.x - begin.x) / cells, (end.y - begin.y) / cells}, cells),
                   agent_->speed_cells_per_s);
-  departure_s = earliest_departure(move, from_s, until_s, likely_blocker);
+  departure_s = reservations_->earliest_departure(move, moving_radius_, from_s, until_s, likely_blocker);
   if (departure_s > until_s || departure_s == kForever) {
     departure_s = until_s;  // how much later depends on who is met first
-    return false;
+    return kNoNode;
   }
   const double arrival_s = std::max(departure_s + duration_s, target.interval.begin_s);
-  if (arrival_s > target.arrival_s || (arrival_s == target.arrival_s && tie == Tie::kKeep)) return false;
-  target.reach(from, departure_s, arrival_s);
-  return true;
+  if (arrival_s > arrived_s || (arrival_s == arrived_s && tie == Tie::kKeep)) return kNoNode;
+  const NodeId reached = motion_.node_for(nodes_, id, heading, to_goal_s(id, heading));
+  nodes_[reached].reach(from, departure_s, arrival_s);
+  return reached;
 }
 
-bool SippSearch::shoot(NodeId id, SearchStatistics& statistics) {
-  const SippNode& origin = nodes_[id];
-  SippNode& goal = nodes_[nodes_of(agent_->goal).last - 1];
-  if (origin.cell() == agent_->goal || !body_->line_of_sight.is_clear(origin.cell(), agent_->goal))
-    return false;
+template <class Motion>
+NodeId Sipp<Motion>::shoot(NodeId id) {
+  const NodeId goal = nodes_of(agent_->goal).last - 1;
+  const Node& origin = nodes_[id];
+  if (!options_.any_angle || origin.cell() == agent_->goal ||
+      !body_->line_of_sight.is_clear(origin.cell(), agent_->goal)) {
+    return kNoNode;
+  }
+  const double rest_s = nodes_[goal].interval.begin_s;
   const Move move(Displacement(centre(origin.cell()), centre(agent_->goal)), agent_->speed_cells_per_s);
-  const double departure_s = std::max(origin.arrival_s, goal.interval.begin_s - move.duration);
-  if (departure_s > origin.interval.end_s) return false;
-  if (earliest_departure(move, departure_s, departure_s, &shot_blocker_) > departure_s) return false;
-  ++statistics.generations;
-  goal.departure_s = departure_s;
-  goal.arrival_s = std::max(departure_s + move.duration, goal.interval.begin_s);
-  goal.parent = id;
-  return true;
+  const Heading heading = heading_of(id, goal);
+  const double departure_s = std::max(motion_.ready_s(origin, heading), rest_s - move.duration);
+  if (departure_s > origin.interval.end_s) return kNoNode;
+  const double arrival_s = std::max(departure_s + move.duration, rest_s);
+  if (Motion::kTurns && arrival_s >= motion_.known_s(nodes_, goal, heading)) return kNoNode;
+  if (reservations_->earliest_departure(move, moving_radius_, departure_s, departure_s, &shot_blocker_) >
+      departure_s) {
+    return kNoNode;
+  }
+  ++statistics_->generations;
+  const NodeId reached = motion_.node_for(nodes_, goal, heading, to_goal_s(goal, heading));
+  nodes_[reached].departure_s = departure_s;
+  nodes_[reached].arrival_s = arrival_s;
+  nodes_[reached].parent = id;
+  return reached;
 }
 
-double SippSearch::earliest_departure(const Move& move, double from_s, double until_s,
-                                      ReservationTable::DiskId* likely_blocker) {
-  return options_.indexed_reservations
-             ? reservations_->earliest_departure(move, agent_->radius_cells, from_s, until_s, likely_blocker)
-             : reservations_->earliest_departure_plain(move, agent_->radius_cells, from_s, until_s);
-}
-
-Trajectory SippSearch::finish(NodeId goal) {
+template <class Motion>
+Trajectory Sipp<Motion>::finish(NodeId goal) {
   const std::vector<NodeId> way = way_to(goal);
-  if (!options_.any_angle || !options_.straighten || options_.weight == 1) return reconstruct(way);
+  if (Motion::kTurns || !options_.any_angle || !options_.straighten || options_.weight == 1) {
+    return reconstruct(way);
+  }
   straighten(way);
   return reconstruct(way_to(goal));
 }
 
-std::vector<NodeId> SippSearch::way_to(NodeId goal) const {
+template <class Motion>
+std::vector<NodeId> Sipp<Motion>::way_to(NodeId goal) const {
   std::vector<NodeId> way;
   for (NodeId id = goal; id != kNoNode; id = nodes_[id].parent) way.push_back(id);
   std::reverse(way.begin(), way.end());
   return way;
 }
 
-void SippSearch::straighten(std::span<const NodeId> way) {
+template <class Motion>
+void Sipp<Motion>::straighten(std::span<const NodeId> way) {
   bool is_earlier = false;  // at the node before
   for (const NodeId id : way.subspan(1)) {
-    SippNode& node = nodes_[id];
+    Node& node = nodes_[id];
     const double found_s = node.arrival_s;
     if (is_earlier) arrive_straight(node.parent, id);
     for (NodeId bend = node.parent; nodes_[bend].parent != kNoNode; bend = node.parent) {
@@ -315,7 +353,7 @@ void SippSearch::straighten(std::span<const NodeId> way) {
         node.departure_s = nodes_[bend].departure_s;
       } else if (nodes_[before].cell() == node.cell() ||
                  !body_->line_of_sight.is_clear(nodes_[before].cell(), node.cell()) ||
-                 !arrive_straight(before, id)) {
+                 arrive_straight(before, id) == kNoNode) {
         break;
       }
     }
@@ -323,23 +361,31 @@ void SippSearch::straighten(std::span<const NodeId> way) {
   }
 }
 
-Trajectory SippSearch::reconstruct(std::span<const NodeId> way) const {
+template <class Motion>
+Trajectory Sipp<Motion>::reconstruct(std::span<const NodeId> way) const {
   Trajectory trajectory{agent_->start, {}};
   NodeId left = kNoNode;  // where the last motion began
   for (std::size_t i = 1; i < way.size(); ++i) {
-    const SippNode& from = nodes_[way[i - 1]];
-    const SippNode& to = nodes_[way[i]];
-    const bool waits = to.departure_s > from.arrival_s;
-    if (options_.any_angle && left != kNoNode && !waits && is_on_the_way(left, way[i - 1], way[i])) {
+    const Node& from = nodes_[way[i - 1]];
+    const Node& to = nodes_[way[i]];
+    const double ready_s = motion_.turn(from, motion_.heading(from.cell(), to.cell()), trajectory);
+    if (options_.any_angle && left != kNoNode && to.departure_s == from.arrival_s &&
+        is_on_the_way(left, way[i - 1], way[i])) {
       trajectory.motions.back().end_s = to.arrival_s;
       trajectory.motions.back().to = to.cell();
       continue;
     }
-    if (waits) trajectory.motions.push_back({from.arrival_s, to.departure_s, from.cell(), from.cell()});
+    if (to.departure_s > ready_s) {
+      trajectory.motions.push_back({ready_s, to.departure_s, from.cell(), from.cell()});
+    }
     trajectory.motions.push_back({to.departure_s, to.arrival_s, from.cell(), to.cell()});
     left = way[i - 1];
   }
+  motion_.turn_at_goal(nodes_[way.back()], trajectory);
   return trajectory;
 }
+
+template class Sipp<PlainMotion>;
+template class Sipp<TurningMotion>;
 
 }  // namespace sipplab

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "planner/search/body.hpp"
+#include "planner/search/motion.hpp"
 #include "planner/search/open_list.hpp"
 #include "planner/search/single_agent_planner.hpp"
-#include "planner/search/sipp_node.hpp"
 
 namespace sipplab {
 
@@ -21,41 +21,36 @@ struct SippOptions {
   /// least f is expanded first; with more, nodes nearer to the goal are: fewer expansions, and
   /// an arrival that is at most so many times as late as the earliest one by steps alone.
   double weight = 1;
+  MotionRules rules{};  ///< for TurningSearch alone
   /// Add to the heuristic what the map's obstacles add to a robot's way by steps, were it alone: no way by
   /// steps takes less, but some any-angle way may, and may be missed where it alone is in time for a latest
   /// arrival. Off: the plain bound, as on an empty map.
   bool detours = true;
-  /// Try the straight way to the goal from each expanded node, departing at once, or so late
-  /// that the goal is free for good on arrival: no node of OPEN promises an earlier one (with a
-  /// weight, one that is earlier by more than that factor), and the search ends. Any-angle only, where the
-  /// search is greedy and f may fall along a way: now and then an earlier arrival would have been found by
-  /// searching on.
-  bool direct_shot = true;
   /// Weighted, at any angle: leave out those bends of the way that was found behind which a straight way
   /// from the bend before is safe and earlier. The arrival is never later. (Trials on the paper's instances,
   /// 50 a cell, weight 1.2: a quarter to a half of the flowtime that the weight costs on empty maps and with
   /// up to 32 robots in the warehouse, nothing with more.)
   bool straighten = true;
-  /// Queue successors with a lower bound on their arrival and compute the arrival when
-  /// they come up; off: compute it for each successor at once, the plain twin. The two
-  /// break ties differently.
-  bool lazy_evaluation = true;
-  /// Ask the reservation table by its indexed search; off: by its plain twin.
-  bool indexed_reservations = true;
 };
 
-class SippSearch final : public SingleAgentPlanner {
+/// The search for one kind of robot. `Motion` is a policy as in motion.hpp.
+template <class Motion>
+class Sipp final : public SingleAgentPlanner {
  public:
   /// The instance must outlive the search. REQUIRES: !find_error(instance).
-  SippSearch(const Instance& instance, SippOptions options);
+  Sipp(const Instance& instance, SippOptions options);
 
+  /// Turns are motions of their own in the trajectory, each right after the arrival; the
+  /// last one is to the goal heading, and the robot has arrived when it is done.
   Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override;
 
-  /// Straight-line distance (any-angle) or the neighbourhood's distance over speed.
+  /// Of travelling, turning and standing, as if the robot were alone on an empty map.
   double lower_bound_s(AgentIndex agent) const override;
 
  private:
+  using Node = typename Motion::Node;
+  using Heading = typename Motion::Heading;
   /// The nodes of one cell: consecutive, one for each safe interval. Laid out when a
   /// search first comes to the cell.
   struct CellNodes {
@@ -63,53 +58,81 @@ class SippSearch final : public SingleAgentPlanner {
     NodeId first = kNoNode;
     NodeId last = kNoNode;  ///< one past
   };
+  /// A straight way to a cell, and when it may end.
+  struct Way {
+    NodeId from;
+    Heading heading;
+    double travel_s;
+    double soonest_s;
+    double latest_s;
+    double step_soonest_s = 0;  ///< for a way from the parent of `from`: by the step from `from`
+  };
+  /// Which way to keep of two that arrive at the same time.
+  enum class Tie { kKeep, kReplace };
 
-  void begin(AgentIndex agent, ReservationTable& reservations);
+  void begin(const Agent& agent, ReservationTable& reservations);
   const CellNodes& nodes_of(Cell cell) {
     const CellNodes& nodes = cell_nodes_[instance_.map.index(cell)];
     return nodes.search == search_ ? nodes : lay_out(cell);
   }
   const CellNodes& lay_out(Cell cell);
-  double lower_bound_s(Cell from, Cell to) const;
-  /// At most what the way by steps from the cell to the goal takes; not weighted.
-  double heuristic_s(Cell cell);
-  double travel_s(Cell from, Cell to) const;
+
   double seconds(double cells) const {
     const double speed = agent_->speed_cells_per_s;
     return speed == 1 ? cells : cells / speed;
   }
+  double line_cells(Cell from, Cell to) const {
+    return options_.any_angle ? distance(from, to) : neighbourhood_distance(from, to, options_.connectedness);
+  }
+  /// At most what a way by steps from the cell to the goal takes; neither weighted nor with any turn.
+  double heuristic_s(Cell cell);
+  /// The heuristic, weighted, for who comes to the node facing this way.
+  double to_goal_s(NodeId id, Heading heading) {
+    if constexpr (!Motion::kTurns) return nodes_[id].to_goal_s;
+    const Cell cell = nodes_[id].cell();
+    return options_.weight * (heuristic_s(cell) + motion_.standing_s(cell, heading));
+  }
   /// At most the arrival at the goal by the node and steps from there, what is ahead weighted.
-  static double f(const SippNode& node) { return node.arrival_s + node.to_goal_s; }
-  bool is_goal(const SippNode& node) const;
+  static double f(const Node& node) { return node.arrival_s + node.to_goal_s; }
+  bool is_goal(const Node& node) const {
+    return node.cell() == agent_->goal && node.interval.end_s == kForever;
+  }
   /// Whether an arrival that leaves nothing to gain was found after this was queued.
   bool is_overtaken(const OpenList::Entry& entry) const;
-
-  void expand(NodeId id, SearchStatistics& statistics);
-  /// Promises node `id`, a neighbour of `from`, which may be reached from it or straight from `parent`
-  /// (kNoNode: there is no such way), no earlier than at `arrival_s`.
-  void offer(NodeId from, NodeId parent, NodeId id, double arrival_s, SearchStatistics& statistics);
-  /// Computes what a promise is worth. Whether it lowered the arrival at the node.
-  bool relax(NodeId from, NodeId parent, NodeId id, SearchStatistics& statistics);
+  Heading heading_of(NodeId from, NodeId to) const {
+    return motion_.heading(nodes_[from].cell(), nodes_[to].cell());
+  }
   /// Whether `from` lies on the straight line from `parent` to node `id`.
   bool is_on_the_way(NodeId parent, NodeId from, NodeId id) const;
+
+  void expand(NodeId id);
+  Way way(NodeId from, Cell to, double cells) const;
+  /// Queues those of the nodes of a cell at which the way may arrive earlier than any that is known. Where
+  /// there is a parent they may be reached straight from it, or by the step from way.from.
+  void offer(const Way& way, NodeId parent, NodeId target, NodeId last);
+  /// Whether an arrival no earlier than `soonest_s` may be in the interval and earlier than the one that is
+  /// known.
+  bool may_gain(NodeId id, Heading heading, double soonest_s) const {
+    const SafeInterval& interval = nodes_[id].interval;
+    const double earliest_s = std::max(interval.begin_s, soonest_s);
+    return earliest_s <= interval.end_s && earliest_s < motion_.known_s(nodes_, id, heading);
+  }
+  /// Computes what a lazy successor is worth: the node whose arrival fell, or kNoNode.
+  NodeId evaluate(NodeId from, NodeId parent, NodeId id);
   /// Lowers the arrival at node `id` to that of the straight way from `parent`, if earlier.
-  bool arrive_straight(NodeId parent, NodeId id);
-  /// Which way to keep of two that arrive at the same time.
-  enum class Tie { kKeep, kReplace };
-  /// Lowers the arrival at node `id` to that of the step from `from`, if earlier.
-  bool arrive_by_step(NodeId from, NodeId id, Tie tie) {
+  NodeId arrive_straight(NodeId parent, NodeId id);
+  /// The same for the step from `from`.
+  NodeId arrive_by_step(NodeId from, NodeId id, Tie tie) {
     double departure_s = 0;
     return arrive(from, id, 0, tie, nullptr, departure_s);
   }
   /// The same for any straight way on which no departure before `known_s` is safe. What is asked of the
   /// reservations then, if anything, is answered in `departure_s`.
-  bool arrive(NodeId from, NodeId id, double known_s, Tie tie, ReservationTable::DiskId* likely_blocker,
-              double& departure_s);
-  /// Whether the straight way to the goal is safe when the node is left at once, or in time for
-  /// the moment from which the goal is free; then the goal's node says so.
-  bool shoot(NodeId id, SearchStatistics& statistics);
-  double earliest_departure(const Move& move, double from_s, double until_s,
-                            ReservationTable::DiskId* likely_blocker);
+  NodeId arrive(NodeId from, NodeId id, double known_s, Tie tie, ReservationTable::DiskId* likely_blocker,
+                double& departure_s);
+  /// Reaches the goal by the straight way from the node, if that is safe when it is left at once, or in time
+  /// for the moment from which the goal is free.
+  NodeId shoot(NodeId id);
   /// What is handed over once the goal's node is reached.
   Trajectory finish(NodeId goal);
   /// From the start.
@@ -127,14 +150,21 @@ class SippSearch final : public SingleAgentPlanner {
 
   // The search under way.
   const Agent* agent_ = nullptr;
+  Motion motion_;
+  double moving_radius_ = 0;  ///< cells
   Body* body_ = nullptr;
   ReservationTable* reservations_ = nullptr;
+  SearchStatistics* statistics_ = nullptr;
   std::uint32_t search_ = 0;
   ArenaVector<CellNodes> cell_nodes_;
-  ArenaVector<SippNode> nodes_;
+  ArenaVector<Node> nodes_;
   ReservationTable::DiskId shot_blocker_ = ReservationTable::kNoDisk;  ///< of the last shot
   ReservationTable::DiskId way_blocker_ = ReservationTable::kNoDisk;   ///< of the last straight way
   OpenList open_;
 };
+
+using SippSearch = Sipp<PlainMotion>;
+/// For robots that have a heading, stand before they move, or keep more room than their bodies need.
+using TurningSearch = Sipp<TurningMotion>;
 
 }  // namespace sipplab

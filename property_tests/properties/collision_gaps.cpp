@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "planner/geometry/collision_interval.hpp"
-#include "planner/geometry/interval_set.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
+#include "property_tests/support/interval_set.hpp"
 #include "property_tests/support/property.hpp"
 
 namespace sipplab {

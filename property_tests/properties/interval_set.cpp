@@ -1,5 +1,5 @@
 // Safe time against a row of points that are each safe or not.
-#include "planner/geometry/interval_set.hpp"
+#include "property_tests/support/interval_set.hpp"
 #include "property_tests/support/property.hpp"
 
 #include <rapidcheck.h>

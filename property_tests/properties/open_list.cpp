@@ -55,15 +55,15 @@ void same_as_a_list(const std::vector<Step>& steps) {
     const std::size_t first = first_of(waiting);
     const OpenList::Entry entry = open.pop_min();
     RC_ASSERT(entry.node == waiting[first].second);
-    RC_ASSERT(entry.is_promise() == (entry.node % 2 == 1));
+    RC_ASSERT(entry.is_lazy() == (entry.node % 2 == 1));
     waiting.erase(waiting.begin() + static_cast<std::ptrdiff_t>(first));
   };
   for (const Step& step : steps) {
     RC_ASSERT(open.empty() == waiting.empty());
     if (step.push) {
-      // Promises and settled nodes by turns: they queue as one.
+      // Lazy successors and settled nodes by turns: they queue as one.
       if (next % 2 == 1) {
-        open.push_promise(next, step.f, step.arrival_s, 0, kNoNode);
+        open.push_lazy(next, step.f, step.arrival_s, 0, kNoNode);
       } else {
         open.push(next, step.f, step.arrival_s);
       }

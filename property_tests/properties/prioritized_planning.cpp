@@ -17,7 +17,6 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/search/sipp_search.hpp"
-#include "planner/search/turning_search.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
@@ -142,12 +141,9 @@ Posed posed(const World& world, bool any_angle) {
 
 std::unique_ptr<SingleAgentPlanner> search_of(const PlanCase& plan_case) {
   const PlannerOptions& options = plan_case.options;
-  if (options.rules.is_plain()) {
-    return std::make_unique<SippSearch>(plan_case.instance,
-                                        SippOptions{options.any_angle, options.connectedness});
-  }
-  return std::make_unique<TurningSearch>(
-      plan_case.instance, TurningOptions{options.any_angle, options.connectedness, options.rules});
+  const SippOptions search{options.any_angle, options.connectedness, 1, options.rules};
+  if (options.rules.is_plain()) return std::make_unique<SippSearch>(plan_case.instance, search);
+  return std::make_unique<TurningSearch>(plan_case.instance, search);
 }
 
 /// What was seen on the way, for classes.

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "planner/geometry/collision_interval.hpp"
-#include "planner/geometry/interval_set.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
+#include "property_tests/support/plain_twins.hpp"
 #include "property_tests/support/property.hpp"
 
 namespace sipplab {
@@ -124,7 +124,10 @@ rc::Gen<std::vector<Query>> any_queries() {
 class Filled {
  public:
   explicit Filled(const Traffic& traffic)
-      : askers_(traffic.askers), map_(kWidth, kHeight), table_(map_, traffic.askers) {
+      : askers_(traffic.askers),
+        map_(kWidth, kHeight),
+        table_(map_, traffic.askers),
+        twin_{{}, traffic.askers.time_margin_s} {
     for (const Cell cell : traffic.blocked) map_.set_blocked(cell, true);
     fill(traffic);
   }
@@ -138,7 +141,7 @@ class Filled {
       if (guard.removed) {
         to_remove.push_back(id);
       } else {
-        disks_.push_back(guard.disk());
+        twin_.disks.push_back(guard.disk());
       }
     }
     ask_everywhere(askers_.max_radius_cells);
@@ -161,20 +164,19 @@ class Filled {
 
   void clear() {
     table_.clear();
-    disks_.clear();
+    twin_.disks.clear();
   }
 
   double largest_radius() const { return askers_.max_radius_cells; }
-  double time_margin_s() const { return askers_.time_margin_s; }
   const GridMap& map() const { return map_; }
   ReservationTable& table() { return table_; }
-  const std::vector<MovingDisk>& disks() const { return disks_; }
+  const PlainTable& twin() const { return twin_; }
 
  private:
   void add(const Walk& walk) {
     const Trajectory trajectory = walk.trajectory();
     table_.add(trajectory, walk.radius);
-    for (const MovingDisk& disk : disks_of(trajectory, walk.radius)) disks_.push_back(disk);
+    for (const MovingDisk& disk : disks_of(trajectory, walk.radius)) twin_.disks.push_back(disk);
   }
 
   void ask_everywhere(double radius) {
@@ -184,7 +186,7 @@ class Filled {
   Askers askers_;
   GridMap map_;
   ReservationTable table_;
-  std::vector<MovingDisk> disks_;
+  PlainTable twin_;
 };
 
 void intervals_are_cut_by_every_disk(Filled& filled) {
@@ -194,17 +196,11 @@ void intervals_are_cut_by_every_disk(Filled& filled) {
     for (std::size_t i = 0; i < filled.map().cell_count(); ++i) {
       const Cell cell = filled.map().cell(i);
       if (filled.map().is_blocked(cell)) continue;
-      IntervalSet expected;
-      for (const MovingDisk& disk : filled.disks()) {
-        const OpenInterval unsafe = collision_interval(centre(cell), disk, radius + disk.radius);
-        if (unsafe.empty()) continue;
-        expected.remove_open(
-            {unsafe.begin_s - filled.time_margin_s(), unsafe.end_s + filled.time_margin_s()});
-      }
+      const std::vector<SafeInterval> expected = filled.twin().safe_intervals(cell, radius);
       RC_LOG() << "cell (" << cell.x << ", " << cell.y << ") radius " << radius << std::endl;
       const std::span<const SafeInterval> safe = filled.table().safe_intervals(cell, radius);
-      RC_ASSERT(std::pmr::vector<Interval>(safe.begin(), safe.end()) == expected.intervals());
-      for (const Interval& interval : expected.intervals()) {
+      RC_ASSERT(std::vector<SafeInterval>(safe.begin(), safe.end()) == expected);
+      for (const Interval& interval : expected) {
         points += interval.end_s - interval.begin_s < 4 * kContactSlackCells;
       }
     }
@@ -233,8 +229,7 @@ int agrees_with_plain_twin(Filled& filled, const std::vector<Query>& queries) {
     const Move move = query.move();
     const double indexed_s =
         filled.table().earliest_departure(move, query.radius, query.from_s, query.until_s);
-    const double plain_s =
-        filled.table().earliest_departure_plain(move, query.radius, query.from_s, query.until_s);
+    const double plain_s = filled.twin().earliest_departure(move, query.radius, query.from_s, query.until_s);
     RC_LOG() << query << std::endl;
     if (indexed_s > query.until_s && plain_s > query.until_s) continue;
     RC_ASSERT(indexed_s == plain_s);
@@ -274,7 +269,7 @@ std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query
     RC_ASSERT(departure_s >= query.from_s);
     if (departure_s <= query.until_s && departure_s < kForever) {
       const double rounding = rounding_cells(departure_s, 4);
-      RC_ASSERT(deepest_overlap(filled.disks(), query, departure_s, kContactSlackCells) <=
+      RC_ASSERT(deepest_overlap(filled.twin().disks, query, departure_s, kContactSlackCells) <=
                 kPermittedDepthCells + rounding);
       ++found;
     } else {
@@ -283,7 +278,7 @@ std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query
     const double before_s = std::min({departure_s - kToleranceS, query.until_s, kTryUntilS});
     for (double tried_s = query.from_s; tried_s < before_s; tried_s += kTryStepS) {
       RC_LOG() << "tried " << tried_s << std::endl;
-      RC_ASSERT(deepest_overlap(filled.disks(), query, tried_s, 0) > -rounding_cells(tried_s, 4));
+      RC_ASSERT(deepest_overlap(filled.twin().disks, query, tried_s, 0) > -rounding_cells(tried_s, 4));
     }
   }
   return {found, given_up};

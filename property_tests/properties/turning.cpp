@@ -11,7 +11,7 @@
 #include "planner/core/tolerances.hpp"
 #include "planner/grid/heading.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
-#include "planner/search/turning_search.hpp"
+#include "planner/search/sipp_search.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
@@ -203,7 +203,7 @@ int main() {
     plan_case.options.rescheduling = Rescheduling::kNone;
     plan_case.instance.agents.resize(std::min<std::size_t>(plan_case.instance.agents.size(), 1));
     note_case(plan_case);
-    TurningSearch turning(plan_case.instance, {false, plan_case.options.connectedness, {}});
+    TurningSearch turning(plan_case.instance, {false, plan_case.options.connectedness});
     const PlanResult one = plan(plan_case.instance, plan_case.options);
     const PlanResult other = plan_prioritized(plan_case.instance, plan_case.options, turning);
     RC_PRE(one.status != PlanStatus::kLimit && other.status != PlanStatus::kLimit);
@@ -218,7 +218,7 @@ int main() {
         plan_case.options.rescheduling = Rescheduling::kNone;
         plan_case.instance.agents.resize(std::min<std::size_t>(plan_case.instance.agents.size(), 1));
         note_case(plan_case);
-        TurningOptions options{false, plan_case.options.connectedness, plan_case.options.rules};
+        SippOptions options{false, plan_case.options.connectedness, 1, plan_case.options.rules};
         TurningSearch with(plan_case.instance, options);
         options.detours = false;
         TurningSearch without(plan_case.instance, options);

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "planner/core/random.hpp"
 #include "planner/reservation/reservation_table.hpp"
+#include "property_tests/support/plain_twins.hpp"
 
 namespace sipplab {
 namespace {
@@ -30,13 +32,13 @@ MovingDisk any_disk(Random& random, double begin_s) {
 
 /// Whether all unit steps are answered as by looking at every disk, from times on at which there is
 /// something.
-void agrees_with_plain_twin(const ReservationTable& table, double begin_s) {
+void agrees_with_plain_twin(const ReservationTable& table, const PlainTable& twin, double begin_s) {
   for (std::int32_t y = 0; y < kSide; ++y) {
     for (std::int32_t x = 0; x + 1 < kSide; ++x) {
       const Move move(Displacement(centre({x, y}), centre({x + 1, y})), 1);
       for (const double from_s : {begin_s, begin_s + 1.25, begin_s + 40}) {
         EXPECT_EQ(table.earliest_departure(move, kRadius, from_s, kForever),
-                  table.earliest_departure_plain(move, kRadius, from_s, kForever))
+                  twin.earliest_departure(move, kRadius, from_s, kForever))
             << "(" << x << ", " << y << ") from " << from_s;
       }
     }
@@ -49,13 +51,21 @@ TEST(ReservationTable, HoldsCrowdsAndLosesNobodyWhenSomeLeave) {
   for (const double begin_s : {0.0, kLate}) {
     ReservationTable table(map, kRadius);
     Random random(7);
-    std::vector<ReservationTable::DiskId> ids;
-    for (int i = 0; i < 80; ++i) ids.push_back(table.add(any_disk(random, begin_s)));
-    agrees_with_plain_twin(table, begin_s);
-    random.shuffle(ids);
-    while (!ids.empty()) {
-      for (std::size_t i = 0; i < 8; ++i, ids.pop_back()) table.remove(ids.back());
-      agrees_with_plain_twin(table, begin_s);
+    std::vector<std::pair<ReservationTable::DiskId, MovingDisk>> added;
+    const auto agree = [&] {
+      PlainTable twin;
+      for (const auto& [id, disk] : added) twin.disks.push_back(disk);
+      agrees_with_plain_twin(table, twin, begin_s);
+    };
+    for (int i = 0; i < 80; ++i) {
+      const MovingDisk disk = any_disk(random, begin_s);
+      added.emplace_back(table.add(disk), disk);
+    }
+    agree();
+    random.shuffle(added);
+    while (!added.empty()) {
+      for (std::size_t i = 0; i < 8; ++i, added.pop_back()) table.remove(added.back().first);
+      agree();
     }
     EXPECT_EQ(table.safe_intervals({2, 2}, kRadius).size(), 1U);
   }

@@ -1,4 +1,4 @@
-#include "planner/geometry/interval_set.hpp"
+#include "property_tests/support/interval_set.hpp"
 
 #include <algorithm>
 #include <array>

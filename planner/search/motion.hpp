@@ -1,0 +1,117 @@
+// What kinds of robots differ in: the states that a search tells apart, and when a robot that has
+// arrived may set off. A compile-time policy of Sipp, so that plain robots pay for no heading.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "planner/core/arena.hpp"
+#include "planner/grid/heading.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/instance/motion_rules.hpp"
+#include "planner/search/sipp_node.hpp"
+#include "planner/solution/trajectory.hpp"
+
+namespace sipplab {
+
+/// A robot that sets off at once, in any direction: one state for each cell and safe interval.
+class PlainMotion {
+ public:
+  static constexpr bool kTurns = false;
+  using Node = SippNode;
+  using Nodes = ArenaVector<Node>;
+  struct Heading {};
+
+  PlainMotion(const Agent&, const MotionRules&) {}
+
+  static Heading heading(Cell, Cell) { return {}; }
+  static Heading heading(const Node&) { return {}; }
+  static Heading start_heading() { return {}; }
+  /// When the robot may leave the node in this direction.
+  static double ready_s(const Node& node, Heading) { return node.arrival_s; }
+  /// What is to be added to the time of travel from the cell to the goal, at least.
+  static double standing_s(Cell, Heading) { return 0; }
+  /// The earliest known arrival in the node's safe interval, facing this way.
+  static double known_s(const Nodes& nodes, NodeId id, Heading) { return nodes[id].arrival_s; }
+  /// The node that stands for an earlier arrival, facing this way.
+  static NodeId node_for(Nodes&, NodeId id, Heading, double) { return id; }
+  /// Adds the turn to this heading; when it is done.
+  static double turn(const Node& at, Heading, Trajectory&) { return at.arrival_s; }
+  static void turn_at_goal(const Node&, Trajectory&) {}
+};
+
+/// A node of a robot with a heading. Those of one cell and safe interval are a list, which begins with the
+/// one that was laid out.
+struct TurningNode : SippNode {
+  double heading_deg = 0;
+  NodeId first = kNoNode;  ///< of the list
+  NodeId next = kNoNode;
+};
+
+/// A robot that turns in place before it moves, or stands for a while. A state is a cell, a safe interval,
+/// a heading and an arrival: (heading a, time s) is as good as (heading b, time t) only where s plus the
+/// turn from a to b is at most t. An earlier arrival with another heading by itself is not.
+class TurningMotion {
+ public:
+  static constexpr bool kTurns = true;
+  using Node = TurningNode;
+  using Nodes = ArenaVector<Node>;
+  using Heading = double;
+
+  TurningMotion(const Agent& agent, const MotionRules& rules) : agent_(&agent), rules_(&rules) {}
+
+  Heading heading(Cell from, Cell to) const { return rules_->turns ? heading_deg(from, to) : 0; }
+  Heading heading(const Node& node) const { return node.heading_deg; }
+  Heading start_heading() const { return rules_->turns ? agent_->start_heading_deg : 0; }
+  double ready_s(const Node& node, Heading to) const {
+    return node.arrival_s + turn_s(node.heading_deg, to) + rules_->wait_before_move_s;
+  }
+  /// Whoever goes somewhere else turns at least as far as straight there: ways whose directions all lie
+  /// nearer add up to nearer directions, and beyond half a turn there is none. At the end the goal heading
+  /// is faced, which bounds turns likewise.
+  double standing_s(Cell cell, Heading now) const {
+    const double last_s = agent_->goal_heading_deg ? turn_s(now, *agent_->goal_heading_deg) : 0.0;
+    if (cell == agent_->goal) return last_s;
+    return rules_->wait_before_move_s + std::max(turn_s(now, heading(cell, agent_->goal)), last_s);
+  }
+  double known_s(const Nodes& nodes, NodeId id, Heading heading) const {
+    double known_s = kForever;
+    for (id = nodes[id].first; id != kNoNode; id = nodes[id].next) {
+      known_s = std::min(known_s, nodes[id].arrival_s + turn_s(nodes[id].heading_deg, heading));
+    }
+    return known_s;
+  }
+  NodeId node_for(Nodes& nodes, NodeId id, Heading heading, double to_goal_s) const {
+    const NodeId first = nodes[id].first;
+    if (nodes[first].arrival_s < kForever) {
+      id = static_cast<NodeId>(nodes.size());
+      Node node = nodes[first];
+      node.arrival_s = kForever;
+      nodes[first].next = id;
+      nodes.push_back(node);
+    }
+    nodes[id].heading_deg = heading;
+    nodes[id].to_goal_s = to_goal_s;
+    return id;
+  }
+  double turn(const Node& at, Heading to, Trajectory& trajectory) const {
+    const double end_s = at.arrival_s + turn_s(at.heading_deg, to);
+    if (end_s > at.arrival_s) {
+      trajectory.motions.push_back({at.arrival_s, end_s, at.cell(), at.cell(), to});
+    }
+    return end_s;
+  }
+  void turn_at_goal(const Node& at, Trajectory& trajectory) const {
+    if (agent_->goal_heading_deg) turn(at, *agent_->goal_heading_deg, trajectory);
+  }
+
+ private:
+  double turn_s(double from_deg, double to_deg) const {
+    return rules_->turns ? turn_deg(from_deg, to_deg) / (kHalfTurnDeg * agent_->rotation_speed) : 0;
+  }
+
+  const Agent* agent_;
+  const MotionRules* rules_;
+};
+
+}  // namespace sipplab
