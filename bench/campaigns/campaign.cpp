@@ -176,7 +176,7 @@ class TargetRun {
   /// Whether it was the machine that took the time, busy or asleep, and not the input.
   bool is_quick_alone(const std::string& input) {
     const InputVerdict judged = program_.judge(input);
-    return judged.verdict == Verdict::kHolds && judged.cpu_time_s * kQuickShare < kInputTimeoutS;
+    return judged.verdict == TargetVerdict::kHolds && judged.cpu_time_s * kQuickShare < kInputTimeoutS;
   }
 
   /// Inputs by the kind that the engine named them after. Exit codes say nothing: in fork
@@ -207,8 +207,8 @@ class TargetRun {
     std::map<std::string, std::pair<InputVerdict, std::string>> distinct;
     for (const auto& [kind, input] : inputs) {
       InputVerdict verdict = program_.judge(input);
-      if (verdict.verdict != Verdict::kBreaks) {
-        verdict = {Verdict::kBreaks, "flaky", kind, "",
+      if (verdict.verdict != TargetVerdict::kBreaks) {
+        verdict = {TargetVerdict::kBreaks, "flaky", kind, "",
                    "the engine reports a " + kind + ", and alone the input holds"};
       }
       const auto known = distinct.find(verdict.signature());

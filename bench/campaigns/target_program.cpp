@@ -78,9 +78,9 @@ InputVerdict TargetProgram::judge(const std::string& input) const {
   InputVerdict verdict;
   verdict.cpu_time_s = run.cpu_time_s;
   if (!run.started || run.timed_out) return verdict;
-  if (run.exit_code == 0) verdict.verdict = Verdict::kHolds;
+  if (run.exit_code == 0) verdict.verdict = TargetVerdict::kHolds;
   if (run.exit_code != 1) return verdict;
-  verdict.verdict = Verdict::kBreaks;
+  verdict.verdict = TargetVerdict::kBreaks;
   std::istringstream lines(run.output);
   for (std::string* value : {&verdict.kind, &verdict.claim, &verdict.frames, &verdict.message}) {
     std::getline(lines, *value);

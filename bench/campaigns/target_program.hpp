@@ -12,14 +12,14 @@ namespace sipplab::bench {
 /// Empty if the file cannot be read: what a killed program left.
 std::string bytes_or_none(const std::filesystem::path& path);
 
-enum class Verdict {
+enum class TargetVerdict {
   kHolds,
   kBreaks,
   kNotJudged,  ///< the program is not there, or did not answer
 };
 
 struct InputVerdict {
-  Verdict verdict = Verdict::kNotJudged;
+  TargetVerdict verdict = TargetVerdict::kNotJudged;
   std::string kind, claim, frames, message;  ///< of what breaks
   double cpu_time_s = 0;                     ///< that judging took
 

@@ -3,15 +3,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/judge/compare.hpp"
+#include "bench/cli/report_flags.hpp"
 #include "bench/judge/report.hpp"
 #include "db/comparisons.hpp"
-#include "planner/io/text_file.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -20,25 +20,10 @@ struct CompareArguments {
   std::optional<std::string> database;
   std::string base;
   std::string head;
-  std::string format = "text";
-  bool json = false;
   bool list = false;
-  std::optional<std::string> junit;
-  bench::CompareOptions options;
+  bool exact = false;
+  ReportFlags report;
 };
-
-int exit_code(bench::CompareVerdict verdict) {
-  switch (verdict) {
-    case bench::CompareVerdict::kSame:
-    case bench::CompareVerdict::kChanged:
-      return kSuccess;
-    case bench::CompareVerdict::kInconclusive:
-      return kInconclusive;
-    case bench::CompareVerdict::kRegressed:
-      return kNegativeVerdict;
-  }
-  return kInternalError;
-}
 
 int run_compare(const CompareArguments& arguments) {
   auto database = db::Database::open_read_only(db::database_path(arguments.database));
@@ -47,27 +32,25 @@ int run_compare(const CompareArguments& arguments) {
   if (!base) return fail(base.error());
   const auto head = db::resolve_side(*database, arguments.head);
   if (!head) return fail(head.error());
-  const auto cells = db::paired_cells(*database, *base, *head);
+  auto cells = db::paired_cells(*database, *base, *head);
   if (!cells) return fail(cells.error());
-  const bench::CompareResult result = bench::compare(*cells, arguments.options);
-  if (result.compared == 0) {
+  bench::Judgement judgement = bench::measured(std::move(*cells));
+  if (judgement.all.compared == 0) {
     return fail(kNothingComparable, "sipplab: " + base->title + " and " + head->title +
                                         " share no case and instance, expected runs of one suite");
   }
-  bench::CompareReport report{*base, *head, result};
+  bench::JudgeOptions options;
+  if (arguments.exact) options.changed = bench::Verdict::kRegressed;
+  bench::judge(judgement, options);
+  const auto side = [](const db::ComparisonSide& named) -> nlohmann::ordered_json {
+    return {{"title", named.title},
+            {"commit", named.commit_hash ? nlohmann::ordered_json(*named.commit_hash) : nullptr}};
+  };
+  bench::Report report{judgement, "sipplab compare", base->title, head->title};
+  report.details = {{"base", side(*base)}, {"head", side(*head)}};
+  report.all_findings = "--list";
   if (arguments.list) report.listed = std::numeric_limits<std::size_t>::max();
-  if (arguments.json || arguments.format == "json") {
-    print(bench::compare_json(report));
-  } else if (arguments.format == "markdown") {
-    print(bench::compare_markdown(report));
-  } else {
-    print(bench::compare_text(report));
-  }
-  if (arguments.junit) {
-    const auto error = write_file(*arguments.junit, bench::compare_junit(report));
-    if (error) return fail(kBadUsage, error->message());
-  }
-  return exit_code(result.verdict);
+  return print_report(report, arguments.report);
 }
 
 }  // namespace
@@ -84,13 +67,9 @@ Command add_compare_command(CLI::App& program) {
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();
   command->add_option("B", arguments->head, "head: what is judged")->required();
   add_database_flag(*command, arguments->database);
-  command->add_flag("--exact", arguments->options.exact, "any difference is a regression");
+  command->add_flag("--exact", arguments->exact, "any difference is a regression");
   command->add_flag("--list", arguments->list, "list every flip and difference, not just the first ten");
-  command->add_option("--format", arguments->format, "text, markdown (for a pull request) or json")
-      ->check(CLI::IsMember({"text", "markdown", "json"}))
-      ->capture_default_str();
-  command->add_flag("--json", arguments->json, "the same as --format json");
-  command->add_option("--junit", arguments->junit, "write JUnit's XML as well")->type_name("FILE");
+  add_report_flags(*command, arguments->report);
   return {command, [arguments] { return run_compare(*arguments); }};
 }
 

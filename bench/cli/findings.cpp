@@ -136,9 +136,9 @@ db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding&
                                 const fs::path& programs, const fs::path& scratch) {
   const bench::TargetProgram program(programs, stored.finding.target, scratch);
   const bench::InputVerdict verdict = program.judge(stored.finding.minimal);
-  if (verdict.verdict == bench::Verdict::kNotJudged)
+  if (verdict.verdict == bench::TargetVerdict::kNotJudged)
     return Replayed{stored, "not run: its program is not there"};
-  const bool breaks = verdict.verdict == bench::Verdict::kBreaks;
+  const bool breaks = verdict.verdict == bench::TargetVerdict::kBreaks;
   const auto recorded = db::record_replay(database, bench::fuzz_origin(), stored.id, breaks, db::utc_now());
   if (!recorded) return Unexpected{recorded.error()};
   if (!breaks) return Replayed{*recorded, "holds by now"};

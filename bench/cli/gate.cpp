@@ -13,6 +13,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/cli/report_flags.hpp"
 #include "bench/gate/comparison.hpp"
 #include "bench/gate/report.hpp"
 #include "bench/gate/slowdown.hpp"
@@ -21,7 +22,6 @@
 #include "bench/sweep/suites.hpp"
 #include "db/gate_runs.hpp"
 #include "planner/io/text.hpp"
-#include "planner/io/text_file.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -39,9 +39,7 @@ struct GateArguments {
   bool calibrate = false;
   std::size_t comparisons = 5;
   std::optional<std::string> database;
-  std::string format = "text";
-  bool json = false;
-  std::optional<std::string> junit;
+  ReportFlags report;
   bench::GateRequest request;
 };
 
@@ -60,18 +58,6 @@ class LiveLine {
  private:
   bool shown_ = false;
 };
-
-int exit_code(bench::RowVerdict verdict) {
-  switch (verdict) {
-    case bench::RowVerdict::kEquivalent:
-      return kSuccess;
-    case bench::RowVerdict::kInconclusive:
-      return kInconclusive;
-    case bench::RowVerdict::kRegressed:
-      return kNegativeVerdict;
-  }
-  return kInternalError;
-}
 
 int failed_comparison(const std::string& line) {
   if (bench::interrupted_by() != 0) {
@@ -111,8 +97,8 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
   live.show("");
   bench::update_noise(request, cases, noise, *last);
   warn_of_unfit_builds(*last);
-  print(arguments.json || arguments.format == "json" ? bench::noise_json(request, *last)
-                                                     : bench::noise_text(request, *last));
+  print(arguments.report.wants_json() ? bench::noise_json(request, *last)
+                                      : bench::noise_text(request, *last));
   return kSuccess;
 }
 
@@ -130,19 +116,9 @@ int run_comparison(const GateArguments& arguments, const bench::GateCases& cases
   // What took so long to find out is said, even where the history does not take it.
   const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, false));
   warn_of_unfit_builds(*result);
-  if (arguments.json || arguments.format == "json") {
-    print(bench::gate_json(request, cases, *result, recorded ? *recorded : std::string()));
-  } else if (arguments.format == "markdown") {
-    print(bench::gate_markdown(request, cases, *result));
-  } else {
-    print(bench::gate_text(request, cases, *result));
-  }
-  if (arguments.junit) {
-    const auto error = write_file(*arguments.junit, bench::gate_junit(cases, *result));
-    if (error) return fail(kBadUsage, error->message());
-  }
-  if (!recorded) return fail(recorded.error());
-  return exit_code(result->verdict);
+  const int code = print_report(bench::gate_report(request, *result, recorded ? *recorded : std::string()),
+                                arguments.report);
+  return recorded ? code : fail(recorded.error());
 }
 
 int run_gate(const GateArguments& given) {
@@ -156,7 +132,7 @@ int run_gate(const GateArguments& given) {
     if (!arguments.head.empty()) {
       return fail(kBadUsage, "sipplab: --calibrate runs one build against itself, expected no --head");
     }
-    if (arguments.junit || arguments.format == "markdown") {
+    if (arguments.report.junit || arguments.report.format == "markdown") {
       return fail(kBadUsage,
                   "sipplab: --calibrate has no verdict, expected --format text or json and no --junit");
     }
@@ -223,11 +199,7 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   add_database_flag(command, arguments.database);
-  command.add_option("--format", arguments.format, "text, markdown (for a pull request) or json")
-      ->check(CLI::IsMember({"text", "markdown", "json"}))
-      ->capture_default_str();
-  command.add_flag("--json", arguments.json, "the same as --format json");
-  command.add_option("--junit", arguments.junit, "write JUnit's XML as well")->type_name("FILE");
+  add_report_flags(command, arguments.report);
   // For scripts and tests: what a judged build is started with; a short exact tier; short pairs;
   // the same program as if it were two.
   command.add_flag("--serve", arguments.serve)->group("");

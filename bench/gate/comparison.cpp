@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <set>
 #include <utility>
 
+#include "bench/judge/evidence.hpp"
 #include "db/identity.hpp"
-#include "db/statistics/statistics.hpp"
 
 namespace sipplab::bench {
 namespace {
-
-/// McNemar's test, where changes are allowed: fewer instances solved than by chance.
-constexpr double kSuccessLevel = 0.05;
 
 /// What the calibrations say about one row, as log ratios.
 struct RowNoise {
@@ -24,7 +19,7 @@ struct RowNoise {
   std::vector<double> pairs;
 };
 
-RowNoise calibrated(const GateRow& row, const GateCases& cases, const std::vector<db::GateNoise>& noise) {
+RowNoise calibrated(const Difference& row, const GateCases& cases, const std::vector<db::GateNoise>& noise) {
   RowNoise found;
   std::optional<db::CaseInfo> parameters;
   if (row.cell) parameters = cases.cells()[*row.cell].row;
@@ -42,12 +37,7 @@ class Comparison {
  public:
   Comparison(const GateRequest& request, const GateCases& cases, const std::vector<db::GateNoise>& noise,
              const GateProgress& progress)
-      : request_(request), cases_(cases), noise_(noise), progress_(progress), random_(request.seed) {
-    for (std::size_t cell = 0; cell < cases.cells().size(); ++cell) {
-      if (cases.cells()[cell].timed) add_row(cases.cells()[cell].name, cell);
-    }
-    add_row("all cells", std::nullopt);
-  }
+      : request_(request), cases_(cases), noise_(noise), progress_(progress), random_(request.seed) {}
 
   Expected<GateResult, std::string> run() {
     const auto begin = std::chrono::steady_clock::now();
@@ -56,42 +46,52 @@ class Comparison {
       const std::string error = (this->*step)();
       if (!error.empty()) return Unexpected{error};
     }
-    judge();
+    give_verdict();
     result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(result_);
   }
 
  private:
-  void add_row(const std::string& name, std::optional<std::size_t> cell) {
-    GateRow row;
-    row.name = name;
-    row.cell = cell;
-    result_.rows.push_back(std::move(row));
-  }
-
   std::string exact_tier() {
     progress_("planning everything once");
     auto workers = start_pair(request_.builds, cases_, true, random_);
     if (!workers) return workers.error();
     result_.base = workers->base.greeting();
     result_.head = workers->head.greeting();
-    result_.same_program = !result_.base.build.binary_hash.empty() &&
-                           result_.base.build.binary_hash == result_.head.build.binary_hash;
     auto answers = plan_all(*workers, cases_);
     if (!answers) return answers.error();
     answers_ = std::move(*answers);
-    result_.compared = cases_.jobs().size();
-    for (std::size_t job = 0; job < result_.compared; ++job) {
-      const db::ResultRow& base = answers_.base[job];
-      const db::ResultRow& head = answers_.head[job];
-      if (const auto what = difference(base, head)) result_.differences.push_back({job, *what});
-      const bool base_solved = base.status == db::ResultStatus::kSolved;
-      const bool head_solved = head.status == db::ResultStatus::kSolved;
-      result_.lost += base_solved && !head_solved ? 1U : 0U;
-      result_.gained += head_solved && !base_solved ? 1U : 0U;
+    std::vector<std::string> names;
+    for (const GateCell& cell : cases_.cells()) names.push_back(cell.name);
+    result_.judgement = measured(paired_cells(), std::move(names));
+    add_times(std::nullopt);
+    for (std::size_t cell = 0; cell < cases_.cells().size(); ++cell) {
+      if (cases_.cells()[cell].timed) add_times(cell);
     }
-    result_.differing = differing_jobs(result_.differences);
     return "";
+  }
+
+  std::vector<db::PairedCell> paired_cells() const {
+    std::vector<db::PairedCell> cells;
+    for (const GateCell& cell : cases_.cells()) {
+      db::PairedCell paired;
+      paired.parameters = cell.row;
+      for (const std::size_t job : cell.jobs) {
+        const db::InstanceInfo& instance = cases_.jobs()[job].row;
+        paired.results.push_back(
+            {instance.name, instance.content_hash, answers_.base[job], answers_.head[job]});
+        paired.results.back().base.position = static_cast<std::int64_t>(paired.results.size()) - 1;
+      }
+      cells.push_back(std::move(paired));
+    }
+    return cells;
+  }
+
+  void add_times(std::optional<std::size_t> cell) {
+    Difference row;
+    row.metric = &kProcessTime;
+    row.cell = cell;
+    result_.judgement.differences.push_back(std::move(row));
   }
 
   /// Times `count` pairs and hands the numbers of each to `store(row, log ratio)`.
@@ -108,9 +108,9 @@ class Comparison {
       for (const std::vector<double>& ratios : times->log_ratios) {
         all.insert(all.end(), ratios.begin(), ratios.end());
       }
-      for (GateRow& row : result_.rows) {
-        const std::vector<double>& ratios = row.cell ? times->log_ratios[*row.cell] : all;
-        if (!ratios.empty()) store(row, interquartile_mean(ratios));
+      for (Difference* row : time_rows(result_.judgement)) {
+        const std::vector<double>& ratios = row->cell ? times->log_ratios[*row->cell] : all;
+        if (!ratios.empty()) store(*row, interquartile_mean(ratios));
       }
     }
     return "";
@@ -121,120 +121,63 @@ class Comparison {
     repetition_noted_ = true;
     const char* again = "planned again: another result";
     const char* once = "repeatable so far";
-    result_.differences.push_back({*times.unrepeatable_job,
-                                   {DifferenceKind::kRepetition, times.unrepeatable_head ? once : again,
-                                    times.unrepeatable_head ? again : once}});
-    result_.differing = differing_jobs(result_.differences);
+    const std::size_t cell = cases_.jobs()[*times.unrepeatable_job].cell;
+    const std::vector<std::size_t>& jobs = cases_.cells()[cell].jobs;
+    const auto place = std::find(jobs.begin(), jobs.end(), *times.unrepeatable_job) - jobs.begin();
+    add_repetition(result_.judgement, {cell,
+                                       static_cast<std::size_t>(place),
+                                       {ChangeKind::kRepetition, times.unrepeatable_head ? once : again,
+                                        times.unrepeatable_head ? again : once}});
   }
 
   std::string first_look() {
     std::vector<bool> wanted;
     for (const GateCell& cell : cases_.cells()) wanted.push_back(cell.timed);
-    const std::string error = time_pairs(request_.pairs, wanted, "pair", [](GateRow& row, double log_ratio) {
-      row.pairs.push_back(log_ratio);
-    });
+    const std::string error =
+        time_pairs(request_.pairs, wanted, "pair",
+                   [](Difference& row, double log_ratio) { row.pairs.push_back(log_ratio); });
     if (!error.empty()) return error;
-    std::vector<std::vector<double>> rows;
-    std::vector<double> floors;
     update_noise(request_, cases_, noise_, result_);
-    for (const GateRow& row : result_.rows) {
-      rows.push_back(row.pairs);
-      floors.push_back(row.floor);
-    }
-    const std::vector<Suspicion> suspicions = suspect(rows, floors, std::log1p(request_.tolerance));
-    for (std::size_t i = 0; i < suspicions.size(); ++i) result_.rows[i].suspicion = suspicions[i];
+    const std::vector<Difference*> rows = time_rows(result_.judgement);
+    for (Difference* row : rows) evaluate(*row);
+    judge_rows(rows);
     return "";
   }
 
   std::string second_look() {
+    const double tolerance = std::log1p(request_.tolerance);
     std::vector<bool> wanted(cases_.cells().size(), false);
-    bool any = false;
-    for (const GateRow& row : result_.rows) {
-      if (!needs_second_look(row)) continue;
-      any = true;
+    std::vector<const Difference*> doubtful;
+    for (const Difference* row : time_rows(result_.judgement)) {
+      if (!needs_second_look(*row, tolerance)) continue;
+      doubtful.push_back(row);
       for (std::size_t cell = 0; cell < wanted.size(); ++cell) {
-        if (cases_.cells()[cell].timed && row.cell.value_or(cell) == cell) wanted[cell] = true;
+        if (cases_.cells()[cell].timed && row->cell.value_or(cell) == cell) wanted[cell] = true;
       }
     }
-    if (!any) return "";
-    const std::string error =
-        time_pairs(request_.fresh_pairs, wanted, "fresh pair", [](GateRow& row, double log_ratio) {
-          if (needs_second_look(row)) row.fresh_pairs.push_back(log_ratio);
-        });
-    if (!error.empty()) return error;
-    for (GateRow& row : result_.rows) {
-      if (row.fresh_pairs.empty()) continue;
-      row.confirmation =
-          confirm(row.suspicion, row.pairs, row.fresh_pairs, row.floor, std::log1p(request_.tolerance));
+    if (!doubtful.empty()) {
+      const std::string error = time_pairs(
+          request_.fresh_pairs, wanted, "fresh pair", [&doubtful](Difference& row, double log_ratio) {
+            if (std::find(doubtful.begin(), doubtful.end(), &row) != doubtful.end()) {
+              row.fresh_pairs.push_back(log_ratio);
+            }
+          });
+      if (!error.empty()) return error;
     }
+    for (Difference* row : time_rows(result_.judgement)) bench::second_look(*row, tolerance);
     return "";
   }
 
-  static bool needs_second_look(const GateRow& row) {
-    return row.suspicion.flagged || !row.suspicion.bounded;
-  }
-
-  void judge() {
-    for (GateRow& row : result_.rows) {
-      std::vector<double> all = row.pairs;
-      all.insert(all.end(), row.fresh_pairs.begin(), row.fresh_pairs.end());
-      row.at_most = upper_bound(all);
-      row.verdict = row.confirmation ? row.confirmation->verdict : RowVerdict::kEquivalent;
+  void give_verdict() {
+    JudgeOptions options;
+    options.changed = request_.allow_changes ? Verdict::kEquivalent : Verdict::kRegressed;
+    options.quality = false;
+    options.tolerance = request_.tolerance;
+    const std::string& program = result_.base.build.binary_hash;
+    if (!program.empty() && program == result_.head.build.binary_hash && !request_.treat_as_different) {
+      options.times_excuse = "both are the same program: what the clock says is noise";
     }
-    result_.verdict = RowVerdict::kEquivalent;
-    result_.reason = "no change of behaviour, no slowdown";
-    judge_times();
-    judge_behaviour();
-  }
-
-  void judge_times() {
-    const auto worst =
-        std::max_element(result_.rows.begin(), result_.rows.end(),
-                         [](const GateRow& a, const GateRow& b) { return a.verdict < b.verdict; });
-    if (worst->verdict == RowVerdict::kEquivalent) return;
-    if (result_.same_program && !request_.treat_as_different && result_.differences.empty()) {
-      result_.times_excused = true;
-      result_.reason = "both are the same program: what the clock says is noise";
-      return;
-    }
-    result_.verdict = worst->verdict;
-    result_.reason = worst->verdict == RowVerdict::kRegressed
-                         ? fmt::format("slower by {:.1f} % in {}",
-                                       100 * std::expm1(worst->confirmation->effect), worst->name)
-                         : fmt::format("too noisy now to rule out a slowdown of {:.1f} % in {}",
-                                       100 * request_.tolerance, worst->name);
-  }
-
-  void judge_behaviour() {
-    const auto grave = std::find_if(result_.differences.begin(), result_.differences.end(),
-                                    [](const GateDifference& difference) {
-                                      return difference.what.kind == DifferenceKind::kRepetition ||
-                                             difference.what.kind == DifferenceKind::kValidity;
-                                    });
-    if (grave != result_.differences.end()) {
-      behaviour_regressed(
-          fmt::format("{} differs in {}", cases_.jobs()[grave->job].row.name, name(grave->what.kind)));
-      return;
-    }
-    if (result_.differences.empty()) return;
-    if (!request_.allow_changes) {
-      behaviour_regressed(fmt::format("{} of {} plannings gave another result, first {}", result_.differing,
-                                      result_.compared,
-                                      cases_.jobs()[result_.differences.front().job].row.name));
-    } else if (result_.lost > result_.gained &&
-               db::statistics::mcnemar(result_.lost, result_.gained) <= kSuccessLevel) {
-      behaviour_regressed(fmt::format("{} instances lost, {} gained", result_.lost, result_.gained));
-    } else if (result_.verdict == RowVerdict::kEquivalent) {
-      result_.reason =
-          fmt::format("{} plannings gave another result, as allowed; no slowdown", result_.differing);
-    }
-  }
-
-  void behaviour_regressed(std::string reason) {
-    if (result_.verdict == RowVerdict::kRegressed) reason += "; " + result_.reason;
-    result_.behaviour_failed = true;
-    result_.verdict = RowVerdict::kRegressed;
-    result_.reason = std::move(reason);
+    judge(result_.judgement, options);
   }
 
   const GateRequest& request_;
@@ -260,10 +203,12 @@ std::vector<double> slowdowns(const std::vector<double>& log_ratios) {
 
 }  // namespace
 
-std::size_t differing_jobs(const std::vector<GateDifference>& differences) {
-  std::set<std::size_t> jobs;
-  for (const GateDifference& difference : differences) jobs.insert(difference.job);
-  return jobs.size();
+std::vector<Difference*> time_rows(Judgement& judgement) {
+  std::vector<Difference*> rows;
+  for (Difference& row : judgement.differences) {
+    if (row.metric == &kProcessTime) rows.push_back(&row);
+  }
+  return rows;
 }
 
 Expected<GateResult, std::string> compare_builds(const GateRequest& request, const GateCases& cases,
@@ -278,16 +223,17 @@ db::GateKind gate_kind(const GateRequest& request) {
 
 void update_noise(const GateRequest& request, const GateCases& cases, const std::vector<db::GateNoise>& noise,
                   GateResult& result) {
-  const GatePlan plan{request.pairs, request.fresh_pairs, result.rows.size()};
-  for (GateRow& row : result.rows) {
-    const RowNoise before = calibrated(row, cases, noise);
+  const std::vector<Difference*> rows = time_rows(result.judgement);
+  const GatePlan plan{request.pairs, request.fresh_pairs, rows.size()};
+  for (Difference* row : rows) {
+    const RowNoise before = calibrated(*row, cases, noise);
     result.calibrations = before.comparisons;
-    row.noise = standard_error(before.pairs.empty() ? row.pairs : before.pairs, request.pairs);
-    row.floor = floor_from(row.noise);
+    row->noise = standard_error(before.pairs.empty() ? row->pairs : before.pairs, request.pairs);
+    row->floor = floor_from(row->noise);
     // What can be seen is the worse of then and now: the machine may be busier.
-    row.detectable = detectable(row.pairs, plan, row.floor);
+    row->detectable = detectable(row->pairs, plan, row->floor);
     if (before.pairs.empty()) continue;
-    row.detectable = std::max(row.detectable, detectable(before.pairs, plan, row.floor));
+    row->detectable = std::max(row->detectable, detectable(before.pairs, plan, row->floor));
   }
 }
 
@@ -309,15 +255,17 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
   run.injected_slowdown = result.head.injected_slowdown;
   run.wall_time_ns = std::llround(result.wall_s * kNanosecondsPerSecond);
   run.started_utc = result.started_utc;
-  run.compared = static_cast<std::int64_t>(result.compared);
-  run.differing = static_cast<std::int64_t>(result.differing);
-  run.verdict = name(result.verdict);
-  run.reason = result.reason;
-  for (const GateRow& row : result.rows) {
+  const Judgement& judgement = result.judgement;
+  run.compared = static_cast<std::int64_t>(judgement.all.compared);
+  run.differing = static_cast<std::int64_t>(judgement.all.differing);
+  run.verdict = name(judgement.all.verdict);
+  run.reason = judgement.all.reason;
+  for (const Difference& row : judgement.differences) {
+    if (row.metric != &kProcessTime) continue;
     db::GateCellRow cell;
     if (row.cell) cell.parameters = cases.cells()[*row.cell].row;
-    cell.slowdown = std::expm1(row.suspicion.effect);
-    cell.p_value = row.suspicion.p_value;
+    cell.slowdown = std::expm1(row.effect);
+    cell.p_value = row.adjusted_p;
     if (row.confirmation) {
       cell.confirm_slowdown = std::expm1(row.confirmation->effect);
       cell.confirm_p_value = row.confirmation->p_value;
@@ -326,15 +274,15 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
     cell.noise = row.noise;
     cell.effect_floor = row.floor;
     cell.detectable = finite(row.detectable);
-    cell.verdict = name(row.verdict);
+    cell.verdict = name(*row.verdict);
     cell.pairs = slowdowns(row.pairs);
     cell.fresh_pairs = slowdowns(row.fresh_pairs);
     run.cells.push_back(std::move(cell));
   }
-  for (const GateDifference& difference : result.differences) {
-    const GateJob& job = cases.jobs()[difference.job];
-    run.differences.push_back({cases.cells()[job.cell].row, job.row, std::string(name(difference.what.kind)),
-                               difference.what.base, difference.what.head});
+  for (const Finding& finding : judgement.findings) {
+    const GateCell& cell = cases.cells()[finding.cell];
+    run.differences.push_back({cell.row, cases.jobs()[cell.jobs[finding.result]].row,
+                               std::string(name(finding.what.kind)), finding.what.base, finding.what.head});
   }
   return run;
 }

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/gate/evidence.hpp"
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/pair.hpp"
-#include "bench/judge/exact.hpp"
+#include "bench/judge/judgement.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/gate_runs.hpp"
 
@@ -28,46 +26,17 @@ struct GateRequest {
   bool treat_as_different = false;  ///< judge times even where both programs are the same file
 };
 
-struct GateRow {
-  std::string name;
-  std::optional<std::size_t> cell;  ///< none: all cells together
-  std::vector<double> pairs;        ///< log ratio of each
-  std::vector<double> fresh_pairs;
-  Suspicion suspicion;
-  std::optional<Confirmation> confirmation;
-  double at_most = 0;  ///< upper bound of the log ratio, may be infinite
-  double noise = 0;    ///< standard error, of calibrations where there are any
-  double floor = 0;
-  double detectable = 0;  ///< may be infinite
-  RowVerdict verdict = RowVerdict::kInconclusive;
-};
-
-struct GateDifference {
-  std::size_t job = 0;
-  Difference what;
-};
-
 struct GateResult {
   WorkerGreeting base;
   WorkerGreeting head;
   std::string started_utc;
   double wall_s = 0;
-  std::size_t compared = 0;   ///< jobs of the exact tier
-  std::size_t differing = 0;  ///< of these
-  std::size_t lost = 0;       ///< solved by the base alone
-  std::size_t gained = 0;     ///< solved by the head alone
-  std::vector<GateDifference> differences;
   std::size_t calibrations = 0;  ///< comparisons of equal builds behind the noise
-  std::vector<GateRow> rows;     ///< timed cells, and all of them together
-  bool same_program = false;
-  bool times_excused = false;     ///< what the rows say was judged to be noise
-  bool behaviour_failed = false;  ///< the differences are reason enough
-  RowVerdict verdict = RowVerdict::kInconclusive;
-  std::string reason;  ///< one line
+  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones
 };
 
-/// Jobs in which the builds differ, each counted once.
-std::size_t differing_jobs(const std::vector<GateDifference>& differences);
+/// Times of all cells together, then of each timed cell.
+std::vector<Difference*> time_rows(Judgement& judgement);
 
 /// Called with one line whenever something new is under way.
 using GateProgress = std::function<void(const std::string&)>;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bench/judge/case_words.hpp"
-#include "bench/judge/replay_command.hpp"
 #include "planner/io/write_instance.hpp"
 
 namespace sipplab::bench {
@@ -63,8 +62,7 @@ std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bo
         }
       }
       cell.jobs.push_back(jobs_.size());
-      jobs_.push_back(
-          {cells_.size(), place->second, prepared.row, replay_command(cell.row, prepared.row.name)});
+      jobs_.push_back({cells_.size(), place->second, prepared.row});
     }
     cells_.push_back(std::move(cell));
   }

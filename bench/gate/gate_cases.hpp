@@ -18,7 +18,6 @@ struct GateJob {
   std::size_t cell = 0;
   std::size_t instance = 0;  ///< which file
   db::InstanceInfo row;
-  std::string replay;  ///< command that plans it again
 };
 
 struct GateCell {

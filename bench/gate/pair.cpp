@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "bench/judge/exact.hpp"
+#include "bench/judge/change.hpp"
 #include "bench/sweep/interrupt.hpp"
 
 namespace sipplab::bench {
@@ -74,7 +74,7 @@ Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases&
   const auto note_repetition = [&times](const db::ResultRow& before, const db::ResultRow& now,
                                         std::size_t job, bool head) {
     // A plan that the validator rejected was checked the first time only.
-    if (before.status == db::ResultStatus::kInvalid || !difference(before, now)) return;
+    if (before.status == db::ResultStatus::kInvalid || !change(before, now)) return;
     if (times.unrepeatable_job) return;
     times.unrepeatable_job = job;
     times.unrepeatable_head = head;

@@ -1,21 +1,17 @@
-// What the gate prints.
+// What the gate adds to a report: the two builds, and how noisy the machine is.
 #pragma once
 
 #include <string>
 
 #include "bench/gate/comparison.hpp"
+#include "bench/judge/report.hpp"
 
 namespace sipplab::bench {
 
-std::string gate_text(const GateRequest& request, const GateCases& cases, const GateResult& result);
-/// For a comment on a pull request.
-std::string gate_markdown(const GateRequest& request, const GateCases& cases, const GateResult& result);
 /// `run`: UUID in the history, empty where it was not recorded.
-std::string gate_json(const GateRequest& request, const GateCases& cases, const GateResult& result,
-                      const std::string& run);
-std::string gate_junit(const GateCases& cases, const GateResult& result);
+Report gate_report(const GateRequest& request, const GateResult& result, const std::string& run);
 
-/// "noise of this machine ...": what was found and what it allows to see, one or two lines.
+/// "noise: ...": what was found and what it allows to see, two lines.
 std::string noise_text(const GateRequest& request, const GateResult& result);
 std::string noise_json(const GateRequest& request, const GateResult& result);
 

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cmath>
 
-#include "bench/judge/case_words.hpp"
 #include "bench/judge/junit.hpp"
 #include "bench/judge/replay_command.hpp"
 #include "bench/judge/text_table.hpp"
@@ -14,244 +13,285 @@ namespace sipplab::bench {
 namespace {
 
 using nlohmann::ordered_json;
+using Cell = std::optional<std::size_t>;  ///< none: all cells together
 
-constexpr const char* kNotes =
-    "instances: of different content, and in brackets how many times they were planned, where that is more: "
-    "repetitions and equal files are one observation, and so counted in lost, gained and p\n"
-    "p: exact, adjusted for the number of cells (Holm)\n"
-    "time: median over instances of single plannings that were not interleaved; it informs and judges "
-    "nothing, `sipplab gate` does\n";
-
-std::string change(double ratio) { return fmt::format("{:+.1f} %", 100 * (ratio - 1)); }
+constexpr const char* kNothing = "-";
 
 std::string p_text(double p_value) { return p_value < 1 ? fmt::format("{:.2g}", p_value) : "1"; }
 
-std::string time_text(const CellComparison& cell) { return cell.time_ratio ? change(*cell.time_ratio) : "-"; }
-
-std::string par2_text(const CellComparison& cell) {
-  if (!cell.base_par2_s || !cell.head_par2_s) return "-";
-  return fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s);
+/// Effect and p value; "-" where nothing was measured.
+std::string effect_text(const Difference* row) {
+  return row == nullptr || row->pairs.empty() ? kNothing : percent_more(row->effect, 1);
+}
+std::string p_text(const Difference* row) {
+  return row == nullptr || row->pairs.empty() ? kNothing : p_text(row->adjusted_p);
 }
 
-/// "8", or "8 (80)" where they were planned 80 times.
-std::string instances_text(const CellComparison& cell) {
-  const std::size_t plannings = cell.cell->results.size();
-  return cell.instances == plannings ? std::to_string(plannings)
-                                     : fmt::format("{} ({})", cell.instances, plannings);
+TextRow behaviour_row(const Judgement& judgement, Cell number) {
+  const Judged& cell = judgement.at(number);
+  const Difference& success = *judgement.find(kSuccess, number);
+  const Difference* flowtime = judgement.find(kFlowtime, number);
+  const bool repeated = cell.instances != cell.compared;
+  return {cell.name,
+          repeated ? fmt::format("{} ({})", cell.instances, cell.compared) : std::to_string(cell.compared),
+          std::to_string(cell.differing),
+          fmt::format("{} -> {}", cell.base_solved, cell.head_solved),
+          std::to_string(success.worse()),
+          std::to_string(success.better()),
+          p_text(&success),
+          effect_text(judgement.find(kSweepTime, number)),
+          cell.base_par2_s ? fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s) : kNothing,
+          std::to_string(cell.both_solved),
+          effect_text(flowtime),
+          p_text(flowtime),
+          effect_text(judgement.find(kMakespan, number)),
+          effect_text(judgement.find(kExpansions, number))};
 }
 
-std::vector<TextRow> cell_rows(const CompareResult& result) {
-  std::vector<TextRow> rows = {{"cell", "instances", "differ", "solved", "lost", "gained", "p", "time",
-                                "PAR-2 [s]", "both solved", "flowtime", "p", "makespan"}};
-  std::vector<db::CaseInfo> cases;
-  for (const CellComparison& cell : result.cells) cases.push_back(cell.cell->parameters);
-  const std::vector<std::string> names = case_words(cases);
-  for (std::size_t i = 0; i < result.cells.size(); ++i) {
-    const CellComparison& cell = result.cells[i];
-    const bool quality = cell.both_solved > 0;
-    rows.push_back(
-        {names[i], instances_text(cell), std::to_string(cell.differences.size()),
-         fmt::format("{} -> {}", cell.base_solved, cell.head_solved), std::to_string(cell.lost.size()),
-         std::to_string(cell.gained.size()), p_text(cell.success_p), time_text(cell), par2_text(cell),
-         std::to_string(cell.both_solved), quality ? change(cell.flowtime.mean_ratio) : "-",
-         quality ? p_text(cell.flowtime.p_value) : "-", quality ? change(cell.makespan.mean_ratio) : "-"});
+TextRow time_row(const Judgement& judgement, const Difference& row) {
+  return {judgement.at(row.cell).name,
+          percent_more(row.effect),
+          percent_more(row.at_most),
+          p_text(row.adjusted_p),
+          row.confirmation ? percent_more(row.confirmation->effect) : kNothing,
+          row.confirmation ? p_text(row.confirmation->p_value) : kNothing,
+          percent_more(row.detectable),
+          std::string(name(row.verdict.value_or(Verdict::kSame)))};
+}
+
+/// Empty where there are no rows. Columns that say nothing are left out.
+std::vector<TextRow> table(TextRow heading, std::vector<TextRow> rows) {
+  if (rows.empty()) return {};
+  rows.insert(rows.begin(), std::move(heading));
+  for (std::size_t column = rows.front().size(); column-- > 0;) {
+    const bool empty = std::all_of(rows.begin() + 1, rows.end(),
+                                   [column](const TextRow& row) { return row[column] == kNothing; });
+    if (!empty) continue;
+    for (TextRow& row : rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
   }
   return rows;
 }
 
-std::string replay(const CellComparison& cell, std::size_t result) {
-  return replay_command(cell.cell->parameters, cell.cell->results[result].instance);
-}
-
-/// "lost  warehouse agents:64 seed:1 index:3 (..)" with the command that plans it again.
-std::string flip_text(const CellComparison& cell, std::size_t result, const char* what) {
-  const db::PairedResult& pair = cell.cell->results[result];
-  return fmt::format("{}: {}, {} -> {}\n  again: {}\n", what, pair.instance, db::name(pair.base.status),
-                     db::name(pair.head.status), replay(cell, result));
-}
-
-std::string difference_text(const CellComparison& cell, const InstanceDifference& difference) {
-  return fmt::format("{}: {}\n  base: {}\n  head: {}\n  again: {}\n", name(difference.what.kind),
-                     cell.cell->results[difference.result].instance, difference.what.base,
-                     difference.what.head, replay(cell, difference.result));
-}
-
-bool is_flip(const CellComparison& cell, std::size_t result) {
-  const db::PairedResult& pair = cell.cell->results[result];
-  return (pair.base.status == db::ResultStatus::kSolved) != (pair.head.status == db::ResultStatus::kSolved);
-}
-
-/// The first `listed` of the texts, and how many more there are.
-std::string first_of(const std::vector<std::string>& texts, std::size_t listed) {
+/// "over all cells: flowtime +1.3 % (95 %: +1.1 % to +1.5 %), ..."
+std::string pooled_text(const Judgement& judgement) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(listed, texts.size()); ++i) text += texts[i];
-  if (texts.size() > listed) text += fmt::format("and {} more (--list)\n", texts.size() - listed);
-  return text;
-}
-
-std::vector<std::string> flips(const CompareResult& result) {
-  std::vector<std::string> texts;
-  for (const CellComparison& cell : result.cells) {
-    for (const std::size_t i : cell.lost) texts.push_back(flip_text(cell, i, "lost"));
+  for (const Metric* metric : {&kFlowtime, &kMakespan, &kExpansions}) {
+    const Difference* row = judgement.find(*metric, std::nullopt);
+    if (row == nullptr || !std::isfinite(row->at_most)) continue;
+    text += fmt::format("{} {} {} (95 %: {} to {})", text.empty() ? "over all cells:" : ",", metric->name,
+                        percent_more(row->effect), percent_more(row->at_least), percent_more(row->at_most));
   }
-  for (const CellComparison& cell : result.cells) {
-    for (const std::size_t i : cell.gained) texts.push_back(flip_text(cell, i, "gained"));
-  }
-  return texts;
+  return text.empty() ? text : text + "\n";
 }
 
-/// Differences that are not listed as flips.
-std::vector<std::string> other_differences(const CompareResult& result) {
-  std::vector<std::string> texts;
-  for (const CellComparison& cell : result.cells) {
-    for (const InstanceDifference& difference : cell.differences) {
-      if (!is_flip(cell, difference.result)) texts.push_back(difference_text(cell, difference));
-    }
-  }
-  return texts;
-}
-
-std::string exact_text(const CompareResult& result) {
-  return result.differing == 0
-             ? sameness_text(result)
-             : fmt::format("{} of {} plannings differ; instances: {} lost, {} gained, p = {}",
-                           result.differing, result.compared, result.lost, result.gained,
-                           p_text(result.success_p));
-}
-
-std::string unpaired_text(const CompareResult& result) {
+std::string unpaired_text(const Judgement& judgement) {
   std::size_t base = 0;
   std::size_t head = 0;
-  for (const CellComparison& cell : result.cells) {
-    base += cell.cell->base_only;
-    head += cell.cell->head_only;
+  for (const db::PairedCell& cell : judgement.results) {
+    base += cell.base_only;
+    head += cell.head_only;
   }
-  return base + head == 0 ? ""
-                          : fmt::format(
-                                "left out: {} results of the base and {} of the head that have no "
-                                "partner\n",
-                                base, head);
+  if (base + head == 0) return "";
+  return fmt::format("left out: {} results of the base and {} of the head that have no partner\n", base,
+                     head);
 }
 
-std::string verdict_text(const CompareResult& result) {
-  return fmt::format("{}: {}", name(result.verdict), result.reason);
+constexpr const char* kBehaviourNotes =
+    "instances: of different content, and in brackets how many times they were planned, where that is more: "
+    "repetitions and equal files are one observation, and so counted in lost, gained and p\n"
+    "p: adjusted for the number of cells (Holm); flowtime, makespan, expansions: mean change over instances "
+    "that both solved\n";
+constexpr const char* kSweepTimeNote =
+    "time: median over instances of single plannings that were not interleaved; it informs and judges "
+    "nothing, `sipplab gate` does\n";
+
+struct Tables {
+  std::vector<TextRow> behaviour;  ///< of all cells; beside times, of cells in which something differs
+  std::vector<TextRow> times;
+  std::string behaviour_notes;
+};
+
+Tables tables(const Judgement& judgement) {
+  std::vector<TextRow> times;
+  for (const Difference& row : judgement.differences) {
+    if (row.metric == &kProcessTime) times.push_back(time_row(judgement, row));
+  }
+  if (!times.empty()) std::rotate(times.begin(), times.begin() + 1, times.end());  // all cells at the end
+  std::vector<TextRow> behaviour;
+  for (std::size_t i = 0; i < judgement.cells.size(); ++i) {
+    if (times.empty() || judgement.cells[i].differing > 0) behaviour.push_back(behaviour_row(judgement, i));
+  }
+  if (!behaviour.empty()) behaviour.push_back(behaviour_row(judgement, std::nullopt));
+  return {table({"cell", "instances", "differ", "solved", "lost", "gained", "p", "time", "PAR-2 [s]",
+                 "both solved", "flowtime", "p", "makespan", "expansions"},
+                behaviour),
+          table({"cell", "slowdown", "at most", "p", "fresh pairs", "p", "sees", "verdict"}, times),
+          kBehaviourNotes + std::string(times.empty() ? kSweepTimeNote : "") + pooled_text(judgement) +
+              unpaired_text(judgement)};
 }
 
-ordered_json optional_json(const std::optional<double>& value) {
+std::string replay(const Judgement& judgement, const Finding& finding) {
+  return replay_command(judgement.results[finding.cell].parameters, judgement.result(finding).instance);
+}
+
+std::string finding_text(const Judgement& judgement, const Finding& finding) {
+  const std::string count = finding.plannings > 1 ? fmt::format(", {} plannings", finding.plannings) : "";
+  return fmt::format("{}: {}\n  {}{}\n  base: {}\n  head: {}\n  again: {}\n", heading(judgement, finding),
+                     judgement.result(finding).instance, judgement.cells[finding.cell].name, count,
+                     finding.what.base, finding.what.head, replay(judgement, finding));
+}
+
+std::string findings_text(const Report& report) {
+  const std::vector<Finding>& findings = report.judgement.findings;
+  std::string text;
+  const std::size_t shown = std::min(report.listed, findings.size());
+  for (std::size_t i = 0; i < shown; ++i) text += finding_text(report.judgement, findings[i]);
+  if (shown == findings.size()) return text;
+  return text + fmt::format("and {} more: {}\n", findings.size() - shown, report.all_findings);
+}
+
+std::string verdict_text(const Judged& judged) {
+  return fmt::format("{}: {}", name(judged.verdict), judged.reason);
+}
+
+template <class T>
+ordered_json optional_json(const std::optional<T>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json result_json(const CellComparison& cell, std::size_t result) {
-  const db::PairedResult& pair = cell.cell->results[result];
-  ordered_json json;
-  json["instance"] = pair.instance;
-  json["instance_hash"] = pair.instance_hash;
-  json["position"] = pair.base.position;
-  json["repetition"] = pair.base.repetition;
-  json["base_status"] = db::name(pair.base.status);
-  json["head_status"] = db::name(pair.head.status);
-  json["replay"] = replay(cell, result);
-  return json;
+ordered_json share_json(double log_ratio) {
+  return std::isfinite(log_ratio) ? ordered_json(std::expm1(log_ratio)) : ordered_json(nullptr);
 }
 
-ordered_json cell_json(const CellComparison& cell) {
-  const db::CaseInfo& parameters = cell.cell->parameters;
-  ordered_json json;
-  json["environment"] = parameters.environment;
-  json["robots"] = parameters.robots;
-  json["case"] = case_words({parameters}).front();
-  json["base_run"] = cell.cell->base_run;
-  json["head_run"] = cell.cell->head_run;
-  json["instances"] = cell.instances;
-  json["plannings"] = cell.cell->results.size();
-  json["base_solved"] = cell.base_solved;
-  json["head_solved"] = cell.head_solved;
-  json["success_p_value"] = cell.success_p;
-  json["time_ratio"] = optional_json(cell.time_ratio);
-  json["base_par2_s"] = optional_json(cell.base_par2_s);
-  json["head_par2_s"] = optional_json(cell.head_par2_s);
-  json["both_solved"] = cell.both_solved;
-  json["flowtime_ratio"] = cell.flowtime.mean_ratio;
-  json["flowtime_p_value"] = cell.flowtime.p_value;
-  json["makespan_ratio"] = cell.makespan.mean_ratio;
-  json["makespan_p_value"] = cell.makespan.p_value;
-  for (const char* direction : {"lost", "gained"}) {
-    json[direction] = ordered_json::array();
-    for (const std::size_t i : direction == std::string("lost") ? cell.lost : cell.gained) {
-      json[direction].push_back(result_json(cell, i));
-    }
-  }
-  json["differences"] = ordered_json::array();
-  for (const InstanceDifference& difference : cell.differences) {
-    ordered_json entry = result_json(cell, difference.result);
-    entry["what"] = name(difference.what.kind);
-    entry["base"] = difference.what.base;
-    entry["head"] = difference.what.head;
-    json["differences"].push_back(std::move(entry));
-  }
-  return json;
+ordered_json cell_json(const Judgement& judgement, std::size_t number) {
+  const Judged& cell = judgement.cells[number];
+  const db::PairedCell& results = judgement.results[number];
+  return {{"cell", cell.name},
+          {"environment", results.parameters.environment},
+          {"robots", results.parameters.robots},
+          {"base_run", results.base_run},
+          {"head_run", results.head_run},
+          {"instances", cell.instances},
+          {"plannings", cell.compared},
+          {"differing", cell.differing},
+          {"base_solved", cell.base_solved},
+          {"head_solved", cell.head_solved},
+          {"both_solved", cell.both_solved},
+          {"base_par2_s", optional_json(cell.base_par2_s)},
+          {"head_par2_s", optional_json(cell.head_par2_s)},
+          {"verdict", name(cell.verdict)},
+          {"reason", cell.reason}};
+}
+
+ordered_json finding_json(const Judgement& judgement, const Finding& finding) {
+  const db::PairedResult& result = judgement.result(finding);
+  return {{"what", name(finding.what.kind)},
+          {"instance", result.instance},
+          {"instance_hash", result.instance_hash},
+          {"cell", judgement.cells[finding.cell].name},
+          {"position", result.base.position},
+          {"repetition", result.base.repetition},
+          {"plannings", finding.plannings},
+          {"base", finding.what.base},
+          {"head", finding.what.head},
+          {"replay", replay(judgement, finding)}};
 }
 
 }  // namespace
 
-std::string compare_text(const CompareReport& report) {
-  const CompareResult& result = report.result;
-  std::string text = fmt::format("base {}\nhead {}\n\n", report.base.title, report.head.title);
-  text += "exact: " + exact_text(result) + "\n" + first_of(flips(result), report.listed) +
-          first_of(other_differences(result), report.listed) + "\n";
-  text += terminal_table(cell_rows(result), 1) + "\n" + kNotes + unpaired_text(result);
-  return text + "\n" + verdict_text(result) + "\n";
+std::string report_text(const Report& report) {
+  const Judgement& judgement = report.judgement;
+  const Tables shown = tables(judgement);
+  std::string text = fmt::format("base {}\nhead {}\n\nexact: {}\n{}\n", report.base, report.head,
+                                 behaviour_text(judgement), findings_text(report));
+  if (!shown.behaviour.empty())
+    text += terminal_table(shown.behaviour, 1) + "\n" + shown.behaviour_notes + "\n";
+  if (!shown.times.empty()) text += terminal_table(shown.times, 1) + "\n";
+  return text + report.notes + (report.notes.empty() ? "" : "\n") + verdict_text(judgement.all) + "\n";
 }
 
-std::string compare_markdown(const CompareReport& report) {
-  const CompareResult& result = report.result;
-  std::string text = fmt::format("### Comparison: {}\n\n", verdict_text(result));
-  text += fmt::format("Base {}, head {}.\n\n", report.base.title, report.head.title);
-  text += "**Behaviour.** " + exact_text(result) + ".\n\n";
-  const std::string listed =
-      first_of(flips(result), report.listed) + first_of(other_differences(result), report.listed);
-  if (!listed.empty()) {
-    text += "<details><summary>Instances</summary>\n\n```\n" + listed + "```\n\n</details>\n\n";
+std::string report_markdown(const Report& report) {
+  const Judgement& judgement = report.judgement;
+  const Tables shown = tables(judgement);
+  std::string text =
+      fmt::format("### {}: {}\n\nBase {}, head {}.\n\n**Behaviour.** {}.\n", report.command,
+                  verdict_text(judgement.all), report.base, report.head, behaviour_text(judgement));
+  if (!judgement.findings.empty()) {
+    text +=
+        "\n<details><summary>Instances</summary>\n\n```\n" + findings_text(report) + "```\n\n</details>\n";
   }
-  return text + markdown_table(cell_rows(result), 1) + "\n" + kNotes + unpaired_text(result);
+  if (!shown.behaviour.empty())
+    text += "\n" + markdown_table(shown.behaviour, 1) + "\n" + shown.behaviour_notes;
+  if (shown.times.empty()) return text;
+  return text + "\n**Time**, head over base, processor time of planning.\n\n" +
+         markdown_table(shown.times, 1) + "\n```\n" + report.notes + "```\n";
 }
 
-std::string compare_json(const CompareReport& report) {
-  const CompareResult& result = report.result;
-  ordered_json json;
-  json["verdict"] = name(result.verdict);
-  json["reason"] = result.reason;
-  json["base"] = report.base.title;
-  json["base_commit"] = report.base.commit_hash ? ordered_json(*report.base.commit_hash) : nullptr;
-  json["head"] = report.head.title;
-  json["head_commit"] = report.head.commit_hash ? ordered_json(*report.head.commit_hash) : nullptr;
-  json["compared"] = result.compared;
-  json["differing"] = result.differing;
-  json["lost"] = result.lost;
-  json["gained"] = result.gained;
-  json["success_p_value"] = result.success_p;
-  json["cells"] = ordered_json::array();
-  for (const CellComparison& cell : result.cells) json["cells"].push_back(cell_json(cell));
+std::string report_json(const Report& report) {
+  const Judgement& judgement = report.judgement;
+  const Difference& success = *judgement.find(kSuccess, std::nullopt);
+  ordered_json json = {{"verdict", name(judgement.all.verdict)}, {"reason", judgement.all.reason}};
+  for (const auto& member : report.details.items()) json[member.key()] = member.value();
+  json.update({{"compared", judgement.all.compared},
+               {"differing", judgement.all.differing},
+               {"lost", success.worse()},
+               {"gained", success.better()}});
+  for (const char* list : {"cells", "findings", "differences"}) json[list] = ordered_json::array();
+  for (std::size_t i = 0; i < judgement.cells.size(); ++i) json["cells"].push_back(cell_json(judgement, i));
+  for (const Finding& finding : judgement.findings)
+    json["findings"].push_back(finding_json(judgement, finding));
+  for (const Difference& row : judgement.differences) {
+    json["differences"].push_back(difference_json(judgement, row));
+  }
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string compare_junit(const CompareReport& report) {
+std::string report_junit(const Report& report) {
+  const Judgement& judgement = report.judgement;
   std::vector<JunitCase> tests;
-  JunitCase verdict;
-  verdict.name = "verdict";
-  verdict.output = exact_text(report.result);
-  if (report.result.verdict == CompareVerdict::kRegressed) verdict.failure = report.result.reason;
-  if (report.result.verdict == CompareVerdict::kInconclusive) verdict.skipped = report.result.reason;
-  tests.push_back(std::move(verdict));
-  for (const CellComparison& cell : report.result.cells) {
+  const auto add = [&tests](const std::string& title, const Judged& judged) {
     JunitCase test;
-    test.name = case_words({cell.cell->parameters}).front();
-    for (const std::size_t i : cell.lost) test.output += flip_text(cell, i, "lost");
-    for (const std::size_t i : cell.gained) test.output += flip_text(cell, i, "gained");
-    if (!cell.regression.empty()) test.failure = cell.regression;
+    test.name = title;
+    if (judged.verdict == Verdict::kRegressed) test.failure = judged.reason;
+    if (judged.verdict == Verdict::kInconclusive) test.skipped = judged.reason;
     tests.push_back(std::move(test));
+  };
+  for (const Judged& cell : judgement.cells) add(cell.name, cell);
+  for (const Finding& finding : judgement.findings)
+    tests[finding.cell].output += finding_text(judgement, finding);
+  add("verdict", judgement.all);
+  tests.back().output = report_text(report);
+  return junit_xml(report.command, tests);
+}
+
+ordered_json difference_json(const Judgement& judgement, const Difference& row) {
+  const bool is_share = row.metric->test == Test::kSigns;
+  const bool is_tested = row.metric->test != Test::kNone;
+  ordered_json json = {
+      {"metric", row.metric->name},
+      {"cell", row.cell ? ordered_json(judgement.cells[*row.cell].name) : ordered_json(nullptr)},
+      {"pairs", row.pairs.size()},
+      {"worse", row.worse()},
+      {"better", row.better()},
+      {"effect", is_share ? ordered_json(row.effect) : share_json(row.effect)},
+      {"at_least", share_json(row.at_least)},
+      {"at_most", share_json(row.at_most)},
+      {"p_value", is_tested ? ordered_json(row.p_value) : nullptr},
+      {"adjusted_p_value", is_tested ? ordered_json(row.adjusted_p) : nullptr},
+      {"floor", share_json(row.floor)}};
+  if (row.metric == &kProcessTime) {
+    json.update({{"confirm_effect", row.confirmation ? share_json(row.confirmation->effect) : nullptr},
+                 {"confirm_p_value", row.confirmation ? ordered_json(row.confirmation->p_value) : nullptr},
+                 {"noise", share_json(row.noise)},
+                 {"detectable", share_json(row.detectable)}});
   }
-  return junit_xml("sipplab compare", tests);
+  json["verdict"] = row.verdict ? ordered_json(name(*row.verdict)) : ordered_json(nullptr);
+  return json;
+}
+
+std::string percent_more(double log_ratio, int digits) {
+  if (!std::isfinite(log_ratio)) return kNothing;
+  return fmt::format("{:+.{}f} %", 100 * std::expm1(log_ratio), digits);
 }
 
 }  // namespace sipplab::bench

@@ -1,26 +1,36 @@
-// What `sipplab compare` prints.
+// What `sipplab compare` and `sipplab gate` print: one report, as text, Markdown, JSON or JUnit's XML.
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench/judge/compare.hpp"
+#include "bench/judge/judgement.hpp"
 
 namespace sipplab::bench {
 
-/// Where the two sides come from, and how much of it is shown.
-struct CompareReport {
-  const db::ComparisonSide& base;
-  const db::ComparisonSide& head;
-  const CompareResult& result;
-  std::size_t listed = 10;  ///< flips, and other differences, that text and Markdown show
+/// A judgement, and what only its command knows.
+struct Report {
+  const Judgement& judgement;
+  std::string command;  ///< "sipplab compare", "sipplab gate"
+  std::string base;     ///< of a side, one line
+  std::string head;
+  nlohmann::ordered_json details = {};  ///< members of the JSON document, beside those of the judgement
+  std::string notes = {};               ///< lines below the tables
+  std::string all_findings = {};        ///< where those are that are not listed
+  std::size_t listed = 10;              ///< findings that text and Markdown show; JSON has all of them
 };
 
-std::string compare_text(const CompareReport& report);
+std::string report_text(const Report& report);
 /// For a comment on a pull request.
-std::string compare_markdown(const CompareReport& report);
-/// Everything, whatever `listed` says.
-std::string compare_json(const CompareReport& report);
-std::string compare_junit(const CompareReport& report);
+std::string report_markdown(const Report& report);
+std::string report_json(const Report& report);
+std::string report_junit(const Report& report);
+
+/// One row as JSON; logarithms as ratios less one.
+nlohmann::ordered_json difference_json(const Judgement& judgement, const Difference& row);
+
+/// "+3.10 %", "-0.20 %": from a logarithm, with so many digits; "-" where it is not finite.
+std::string percent_more(double log_ratio, int digits = 2);
 
 }  // namespace sipplab::bench

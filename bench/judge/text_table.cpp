@@ -1,9 +1,6 @@
 #include "bench/judge/text_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "db/aligned.hpp"
 
@@ -27,16 +24,6 @@ std::string markdown_table(const std::vector<TextRow>& rows, std::size_t left) {
     text += "|\n";
   }
   return text;
-}
-
-std::string percent_slower(double log_ratio) {
-  if (!std::isfinite(log_ratio)) return "-";
-  return fmt::format("{:+.2f} %", 100 * std::expm1(log_ratio));
-}
-
-std::string percent(double share) {
-  if (!std::isfinite(share)) return "-";
-  return fmt::format("{:.1f} %", 100 * share);
 }
 
 }  // namespace sipplab::bench

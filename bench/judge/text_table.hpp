@@ -13,10 +13,4 @@ using TextRow = std::vector<std::string>;
 std::string terminal_table(const std::vector<TextRow>& rows, std::size_t left);
 std::string markdown_table(const std::vector<TextRow>& rows, std::size_t left);
 
-/// "+3.10 %", "-0.20 %": a slowdown from a log ratio; "-" where it is not finite.
-std::string percent_slower(double log_ratio);
-
-/// "3.1 %", without a sign; "-" where it is not finite.
-std::string percent(double share);
-
 }  // namespace sipplab::bench

@@ -6,13 +6,14 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "bench/gate/comparison.hpp"
-#include "bench/gate/evidence.hpp"
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/protocol.hpp"
 #include "bench/gate/worker.hpp"
+#include "bench/judge/evidence.hpp"
+#include "bench/judge/judgement.hpp"
 #include "planner/core/random.hpp"
 
 namespace sipplab::bench {
@@ -45,16 +46,35 @@ std::vector<std::vector<double>> pairs(Random& random, std::size_t count, double
   return rows;
 }
 
+/// After the first look, without the noise of calibrations.
+std::vector<Difference> looked_at(const std::vector<std::vector<double>>& rows) {
+  std::vector<Difference> differences;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Difference row;
+    row.metric = &kProcessTime;
+    row.cell = i;
+    row.pairs = rows[i];
+    row.floor = kLeastFloor;
+    evaluate(row);
+    differences.push_back(std::move(row));
+  }
+  std::vector<Difference*> all;
+  for (Difference& row : differences) all.push_back(&row);
+  judge_rows(all);
+  return differences;
+}
+
+Verdict verdict(Difference row, const std::vector<double>& fresh, double tolerance) {
+  row.fresh_pairs = fresh;
+  second_look(row, tolerance);
+  return *row.verdict;
+}
+
 bool alarmed(Random& random, double slowdown) {
-  const auto first = pairs(random, kPairs, slowdown);
-  const std::vector<double> floors(kCells + 1, kLeastFloor);
-  const std::vector<Suspicion> suspicions = suspect(first, floors, kTolerance);
+  const std::vector<Difference> rows = looked_at(pairs(random, kPairs, slowdown));
   const auto fresh = pairs(random, kFreshPairs, slowdown);
-  for (std::size_t row = 0; row < first.size(); ++row) {
-    if (!suspicions[row].flagged) continue;
-    const Confirmation confirmation =
-        confirm(suspicions[row], first[row], fresh[row], kLeastFloor, kTolerance);
-    if (confirmation.verdict == RowVerdict::kRegressed) return true;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (verdict(rows[row], fresh[row], kTolerance) == Verdict::kRegressed) return true;
   }
   return false;
 }
@@ -64,13 +84,6 @@ int alarms(double slowdown, int trials) {
   int count = 0;
   for (int i = 0; i < trials; ++i) count += alarmed(random, slowdown) ? 1 : 0;
   return count;
-}
-
-TEST(GateComparison, AJobThatDiffersInTwoWaysIsCountedOnce) {
-  const Difference plan{DifferenceKind::kPlan, "a", "b"};
-  const Difference repetition{DifferenceKind::kRepetition, "a", "b"};
-  EXPECT_EQ(differing_jobs({}), 0U);
-  EXPECT_EQ(differing_jobs({{3, plan}, {5, plan}, {3, repetition}}), 2U);
 }
 
 TEST(GateEvidence, TheMiddleHalfForgetsWildValues) {
@@ -95,38 +108,49 @@ TEST(GateEvidence, TheBoundIsAnOrderStatistic) {
   EXPECT_TRUE(std::isinf(upper_bound({1, 2, 3, 4})));
 }
 
-TEST(GateEvidence, SmallEffectsAreNoSuspicion) {
-  const std::vector<std::vector<double>> rows = {std::vector<double>(kPairs, 0.9 * kLeastFloor),
-                                                 std::vector<double>(kPairs, 1.1 * kLeastFloor)};
-  const std::vector<Suspicion> suspicions = suspect(rows, {kLeastFloor, kLeastFloor}, kTolerance);
-  EXPECT_FALSE(suspicions[0].flagged);
-  EXPECT_TRUE(suspicions[1].flagged);
-  EXPECT_TRUE(suspicions[0].bounded);
+TEST(GateEvidence, SmallEffectsNeedNoSecondLook) {
+  const std::vector<Difference> rows = looked_at(
+      {std::vector<double>(kPairs, 0.9 * kLeastFloor), std::vector<double>(kPairs, 1.1 * kLeastFloor)});
+  EXPECT_FALSE(needs_second_look(rows[0], kTolerance));
+  EXPECT_TRUE(needs_second_look(rows[1], kTolerance));
+  EXPECT_TRUE(needs_second_look(rows[0], 0.5 * kLeastFloor));
 }
 
-TEST(GateEvidence, LargeEffectsThatPairsDisagreeAboutAreNoSuspicion) {
+TEST(GateEvidence, LargeEffectsThatPairsDisagreeAboutAreNoRegression) {
   std::vector<double> mixed(kPairs, 0.05);
   for (std::size_t pair = 0; pair < 4; ++pair) mixed[pair] = -0.05;
-  const std::vector<Suspicion> suspicions = suspect({mixed}, {kLeastFloor}, kTolerance);
-  EXPECT_DOUBLE_EQ(suspicions[0].effect, 0.05);
-  EXPECT_FALSE(suspicions[0].flagged);
-  EXPECT_FALSE(suspicions[0].bounded);
+  const Difference row = looked_at({mixed}).front();
+  EXPECT_DOUBLE_EQ(row.effect, 0.05);
+  EXPECT_TRUE(needs_second_look(row, kTolerance));
+  EXPECT_EQ(verdict(row, std::vector<double>(kFreshPairs, 0.05), kTolerance), Verdict::kInconclusive);
 }
 
 TEST(GateEvidence, ASuspicionThatFreshPairsDenyIsNoRegression) {
-  Suspicion suspicion;
-  suspicion.flagged = true;
-  const std::vector<double> high(kPairs, 0.03);
+  const Difference row = looked_at({std::vector<double>(kPairs, 0.03)}).front();
   const std::vector<double> nothing(kFreshPairs, -0.001);
-  EXPECT_EQ(confirm(suspicion, high, nothing, kLeastFloor, kTolerance).verdict, RowVerdict::kEquivalent);
-  EXPECT_EQ(confirm(suspicion, high, nothing, kLeastFloor, 0.02).verdict, RowVerdict::kInconclusive);
-  const std::vector<double> again(kFreshPairs, 0.03);
-  EXPECT_EQ(confirm(suspicion, high, again, kLeastFloor, kTolerance).verdict, RowVerdict::kRegressed);
+  EXPECT_EQ(verdict(row, nothing, kTolerance), Verdict::kEquivalent);
+  EXPECT_EQ(verdict(row, nothing, 0.02), Verdict::kInconclusive);
+  EXPECT_EQ(verdict(row, std::vector<double>(kFreshPairs, 0.03), kTolerance), Verdict::kRegressed);
 }
 
 TEST(GateEvidence, WithoutASuspicionNothingIsConfirmed) {
-  const std::vector<double> high(kFreshPairs, 0.2);
-  EXPECT_EQ(confirm(Suspicion(), high, high, kLeastFloor, kTolerance).verdict, RowVerdict::kInconclusive);
+  const Difference row = looked_at({std::vector<double>(kPairs, 0)}).front();
+  EXPECT_EQ(verdict(row, std::vector<double>(kFreshPairs, 0.2), kTolerance), Verdict::kInconclusive);
+}
+
+TEST(GateEvidence, SlowdownsOfOneProgramAreNoise) {
+  for (const bool excused : {true, false}) {
+    Judgement judgement = measured({});
+    Difference row = looked_at({std::vector<double>(kPairs, 0.03)}).front();
+    row.cell.reset();
+    row.fresh_pairs.assign(kFreshPairs, 0.03);
+    second_look(row, kTolerance);
+    judgement.differences.push_back(row);
+    JudgeOptions options;
+    if (excused) options.times_excuse = "the same program";
+    judge(judgement, options);
+    EXPECT_EQ(judgement.all.verdict, excused ? Verdict::kEquivalent : Verdict::kRegressed);
+  }
 }
 
 TEST(GateEvidence, EqualBuildsRaiseFewAlarms) { EXPECT_LE(alarms(0, 2000), 20); }  // 1 %

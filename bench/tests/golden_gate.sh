@@ -54,7 +54,7 @@ says 'no room' err
 # A slowdown that no noise hides; only the head is given it. Processor time beside six compilers was
 # 0.98 to 1.00 slower; the bound of 0.8 tells that from its logarithm, 0.69.
 SIPPLAB_INJECT_SLOWDOWN=1 expect 1 "${gate[@]}" --treat-as-different --pairs 8 --format markdown --junit gate.xml
-says '^### Gate: regressed: slower by'
+says '^### sipplab gate: regressed: slower by'
 says '^\| all cells \|'
 says '<failure message="slower by' gate.xml
 equal "$(ask 'SELECT injected_slowdown, verdict, slowdown > 0.8 FROM v_gate_runs ORDER BY started_utc DESC LIMIT 1')" "1.0|regressed|1" "the comparison in the history"
@@ -86,7 +86,7 @@ expect 0 compare "$base" latest --db gate.db
 says '^same: all 16 plannings gave the same'
 says '^base run '
 expect 0 compare "run:$base" "run:$head" --db gate.db --format markdown
-says '^### Comparison: same'
+says '^### sipplab compare: same'
 
 # A run that lost one instance and found another plan for a second one.
 sqlite3 gate.db "
@@ -97,7 +97,8 @@ sqlite3 gate.db "
   WHERE position = 0 AND status = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id JOIN case_ ON case_.id = case_id
     WHERE uuid = '$head' AND ssi_s = 5 AND reschedule = 'none');"
 expect 3 compare "${base:0:8}" "${head:0:8}" --db gate.db --junit compare.xml
-says '^lost: warehouse agents:16 seed:1 index:1, solved -> failed'
+says '^lost: warehouse agents:16 seed:1 index:1$'
+says '^  head: failed$'
 says '^plan: warehouse agents:16 seed:1 index:0'
 says '^inconclusive: instances: 1 lost, 0 gained'
 says '<skipped' compare.xml

@@ -10,7 +10,7 @@
 
 namespace sipplab::bench {
 
-enum class DifferenceKind {
+enum class ChangeKind {
   kStatus,      ///< solved by one, not by the other
   kValidity,    ///< a plan that the validator rejected, in one of them
   kPlan,        ///< another plan
@@ -18,10 +18,10 @@ enum class DifferenceKind {
   kRepetition,  ///< a build that differs from itself when it plans again
 };
 /// "status", "validity", "plan", "work", "repetition".
-std::string_view name(DifferenceKind kind);
+std::string_view name(ChangeKind kind);
 
-struct Difference {
-  DifferenceKind kind = DifferenceKind::kPlan;
+struct Change {
+  ChangeKind kind = ChangeKind::kPlan;
   std::string base;  ///< "solved, flowtime 286.12"
   std::string head;
 };
@@ -32,6 +32,6 @@ bool is_cut_short(const db::ResultRow& row);
 
 /// What differs; a plan that differs says nothing about its work. None where all is alike.
 /// Results that the clock cut short are compared in status alone.
-std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head);
+std::optional<Change> change(const db::ResultRow& base, const db::ResultRow& head);
 
 }  // namespace sipplab::bench

@@ -1,11 +1,11 @@
-#include "bench/gate/evidence.hpp"
+#include "bench/judge/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
-#include "bench/judge/holm.hpp"
 #include "db/statistics/statistics.hpp"
 #include "planner/core/random.hpp"
 
@@ -72,6 +72,37 @@ double upper_bound(std::vector<double> values) {
   return values[needed - 1];
 }
 
+double lower_bound(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return -upper_bound(std::move(values));
+}
+
+std::optional<double> half_width(const std::vector<double>& values) {
+  constexpr std::size_t kFewest = 6;
+  if (values.size() < kFewest) return std::nullopt;
+  const auto count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double freedom = count - 1;
+  return db::statistics::t_quantile(freedom) * std::sqrt(squares / freedom / count);
+}
+
+std::vector<double> holm(const std::vector<double>& p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&p_values](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> adjusted(p_values.size());
+  double largest = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const auto tests_left = static_cast<double>(order.size() - rank);
+    largest = std::max(largest, std::min(1.0, tests_left * p_values[order[rank]]));
+    adjusted[order[rank]] = largest;
+  }
+  return adjusted;
+}
+
 double standard_error(const std::vector<double>& values, std::size_t pairs) {
   if (values.size() < 2 || pairs == 0) return 0;
   constexpr double kDeviationOverMad = 1.4826;  // of normal values
@@ -83,50 +114,6 @@ double standard_error(const std::vector<double>& values, std::size_t pairs) {
 
 double floor_from(double standard_error) {
   return std::max(kLeastFloor, kFloorInStandardErrors * standard_error);
-}
-
-std::string_view name(RowVerdict verdict) {
-  switch (verdict) {
-    case RowVerdict::kEquivalent:
-      return "equivalent";
-    case RowVerdict::kInconclusive:
-      return "inconclusive";
-    case RowVerdict::kRegressed:
-      return "regressed";
-  }
-  return "unknown";
-}
-
-std::vector<Suspicion> suspect(const std::vector<std::vector<double>>& rows,
-                               const std::vector<double>& floors, double tolerance) {
-  std::vector<double> p_values;
-  for (const std::vector<double>& pairs : rows) p_values.push_back(slower_p_value(pairs));
-  const std::vector<double> adjusted = holm(p_values);
-  std::vector<Suspicion> suspicions;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    Suspicion suspicion;
-    suspicion.effect = median(rows[row]);
-    suspicion.p_value = adjusted[row];
-    suspicion.flagged = adjusted[row] <= kSuspicionLevel && suspicion.effect > floors[row];
-    suspicion.bounded = upper_bound(rows[row]) < tolerance;
-    suspicions.push_back(suspicion);
-  }
-  return suspicions;
-}
-
-Confirmation confirm(const Suspicion& suspicion, const std::vector<double>& first,
-                     const std::vector<double>& fresh, double floor, double tolerance) {
-  Confirmation confirmation;
-  confirmation.effect = median(fresh);
-  confirmation.p_value = slower_p_value(fresh);
-  if (suspicion.flagged && confirmation.p_value <= kConfirmationLevel && confirmation.effect > floor) {
-    confirmation.verdict = RowVerdict::kRegressed;
-    return confirmation;
-  }
-  std::vector<double> all = first;
-  all.insert(all.end(), fresh.begin(), fresh.end());
-  confirmation.verdict = upper_bound(all) < tolerance ? RowVerdict::kEquivalent : RowVerdict::kInconclusive;
-  return confirmation;
 }
 
 double detectable(const std::vector<double>& pairs, const GatePlan& plan, double floor) {

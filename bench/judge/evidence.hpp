@@ -1,9 +1,9 @@
-// What the gate makes of its measurements: plain functions of numbers. A slowdown travels as
-// the logarithm of head's time over base's: 0.03 is 3 % slower, -0.03 faster.
+// What is made of measurements: plain functions of numbers. A slowdown travels as the logarithm of
+// head's time over base's: 0.03 is 3 % slower, -0.03 faster.
 #pragma once
 
 #include <cstddef>
-#include <string_view>
+#include <optional>
 #include <vector>
 
 namespace sipplab::bench {
@@ -35,37 +35,20 @@ double slower_p_value(const std::vector<double>& values);
 /// is not above this; infinity for fewer than 5 values.
 double upper_bound(std::vector<double> values);
 
+/// The same from below.
+double lower_bound(std::vector<double> values);
+
+/// Half of the 95 % interval of the mean, by Student's distribution; none for fewer than 6 values.
+std::optional<double> half_width(const std::vector<double>& values);
+
+/// Holm: each p value as it counts among all of them, in their order.
+std::vector<double> holm(const std::vector<double>& p_values);
+
 /// Standard error of a comparison, the median over `pairs` of numbers that scatter like
 /// `values`; from the median distance to their median, so that a few wild pairs say little.
 double standard_error(const std::vector<double>& values, std::size_t pairs);
 
 double floor_from(double standard_error);
-
-/// What is judged: a cell, or all cells together.
-enum class RowVerdict { kEquivalent, kInconclusive, kRegressed };
-/// "equivalent", "inconclusive", "regressed".
-std::string_view name(RowVerdict verdict);
-
-struct Suspicion {
-  double effect = 0;   ///< median over pairs
-  double p_value = 1;  ///< Holm's
-  bool flagged = false;
-  bool bounded = false;  ///< slower than the tolerance is ruled out
-};
-
-/// First look, over the pairs of all rows. `floors`: one for each row.
-std::vector<Suspicion> suspect(const std::vector<std::vector<double>>& rows,
-                               const std::vector<double>& floors, double tolerance);
-
-struct Confirmation {
-  double effect = 0;
-  double p_value = 1;
-  RowVerdict verdict = RowVerdict::kInconclusive;
-};
-
-/// Second look at one row, with fresh pairs.
-Confirmation confirm(const Suspicion& suspicion, const std::vector<double>& first,
-                     const std::vector<double>& fresh, double floor, double tolerance);
 
 /// How many pairs each look takes.
 struct GatePlan {

@@ -1,4 +1,4 @@
-#include "bench/judge/exact.hpp"
+#include "bench/judge/change.hpp"
 
 #include <fmt/format.h>
 
@@ -20,17 +20,17 @@ std::string validity_text(const db::ResultRow& row) {
 
 }  // namespace
 
-std::string_view name(DifferenceKind kind) {
+std::string_view name(ChangeKind kind) {
   switch (kind) {
-    case DifferenceKind::kStatus:
+    case ChangeKind::kStatus:
       return "status";
-    case DifferenceKind::kValidity:
+    case ChangeKind::kValidity:
       return "validity";
-    case DifferenceKind::kPlan:
+    case ChangeKind::kPlan:
       return "plan";
-    case DifferenceKind::kWork:
+    case ChangeKind::kWork:
       return "work";
-    case DifferenceKind::kRepetition:
+    case ChangeKind::kRepetition:
       return "repetition";
   }
   return "unknown";
@@ -38,23 +38,23 @@ std::string_view name(DifferenceKind kind) {
 
 bool is_cut_short(const db::ResultRow& row) { return row.limit == "time"; }
 
-std::optional<Difference> difference(const db::ResultRow& base, const db::ResultRow& head) {
+std::optional<Change> change(const db::ResultRow& base, const db::ResultRow& head) {
   const bool base_invalid = base.status == db::ResultStatus::kInvalid;
   const bool head_invalid = head.status == db::ResultStatus::kInvalid;
   if (base_invalid != head_invalid) {
-    return Difference{DifferenceKind::kValidity, validity_text(base), validity_text(head)};
+    return Change{ChangeKind::kValidity, validity_text(base), validity_text(head)};
   }
   if (base.status != head.status) {
-    return Difference{DifferenceKind::kStatus, std::string(db::name(base.status)),
-                      std::string(db::name(head.status))};
+    return Change{ChangeKind::kStatus, std::string(db::name(base.status)),
+                  std::string(db::name(head.status))};
   }
   if (is_cut_short(base) || is_cut_short(head)) return std::nullopt;
   if (base.plan_hash != head.plan_hash) {
-    return Difference{DifferenceKind::kPlan, plan_text(base), plan_text(head)};
+    return Change{ChangeKind::kPlan, plan_text(base), plan_text(head)};
   }
   if (base.tries != head.tries || base.expansions != head.expansions ||
       base.generations != head.generations) {
-    return Difference{DifferenceKind::kWork, work_text(base), work_text(head)};
+    return Change{ChangeKind::kWork, work_text(base), work_text(head)};
   }
   return std::nullopt;
 }

@@ -1,0 +1,25 @@
+// How `sipplab compare` and `sipplab gate` deliver a report.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "bench/judge/report.hpp"
+
+namespace sipplab::cli {
+
+struct ReportFlags {
+  std::string format = "text";
+  bool json = false;
+  std::optional<std::string> junit;
+
+  bool wants_json() const { return json || format == "json"; }
+};
+
+void add_report_flags(CLI::App& command, ReportFlags& flags);
+
+/// Prints the report and writes the file of --junit. Returns the exit code of its verdict.
+int print_report(const bench::Report& report, const ReportFlags& flags);
+
+}  // namespace sipplab::cli

@@ -1,0 +1,109 @@
+// What is said of two sides, base and head: one metric, in one cell or in all of them together.
+// Sweeps of the history and processes that run in turn give the same kind of statement; only where
+// its pairs come from differs.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "db/comparisons.hpp"
+
+namespace sipplab::bench {
+
+/// From harmless to grave.
+enum class Verdict {
+  kSame,          ///< every planning gave the same
+  kEquivalent,    ///< nothing is worse by more than the tolerance
+  kChanged,       ///< other results, and nothing that judges is worse for certain
+  kInconclusive,  ///< worse, which may be chance, or too noisy to tell
+  kRegressed,
+};
+/// "same", "equivalent", "changed", "inconclusive", "regressed".
+std::string_view name(Verdict verdict);
+
+/// How pairs become a p value.
+enum class Test {
+  kNone,
+  kSigns,       ///< sign test, two-sided; of lost and gained instances it is McNemar's
+  kRanks,       ///< Wilcoxon's, two-sided
+  kFreshPairs,  ///< sign test, one-sided, to be confirmed by fresh pairs
+};
+
+/// A pair is the logarithm of head over base, 0.03 for 3 % more; of kSigns 1 for an instance that only the
+/// base solves and -1 for one that only the head solves. Above zero is worse.
+struct Metric {
+  std::string_view name = {};
+  Test test = Test::kNone;
+  bool median = false;         ///< the effect is the median of the pairs, else their mean
+  double level = 0;            ///< adjusted p values above it are chance
+  double floor = 0;            ///< effects up to it never count, however certain
+  bool judges = false;         ///< in a cell; other metrics inform
+  bool judges_pooled = false;  ///< over all cells together
+  bool doubts_pooled = false;  ///< there, a worse effect that may be chance is inconclusive
+  /// What one planning gave; 0 and less has no logarithm. None: the pairs are measured elsewhere.
+  double (*value)(const db::ResultRow& row) = nullptr;
+  bool of_time = false;  ///< compared on one machine alone, and of unsolved plannings too
+};
+
+extern const Metric kSuccess;
+extern const Metric kFlowtime;
+extern const Metric kMakespan;
+extern const Metric kExpansions;
+extern const Metric kSweepTime;    ///< of sweeps, which did not run in turn: it judges nothing
+extern const Metric kProcessTime;  ///< of pairs of processes, by the gate
+
+/// Those of recorded results. A new metric is a row here and a constant above.
+inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess, &kFlowtime, &kMakespan, &kExpansions,
+                                                     &kSweepTime};
+
+/// A look at fresh pairs alone.
+struct Confirmation {
+  double effect = 0;
+  double p_value = 1;
+};
+
+struct Difference {
+  const Metric* metric = nullptr;
+  std::optional<std::size_t> cell = {};  ///< none: all cells together
+  /// One for each instance, or pair of processes: repetitions and equal files of one instance are one
+  /// observation, and so is an instance in several cells.
+  std::vector<double> pairs = {};
+  std::vector<double> fresh_pairs = {};  ///< of those that were to confirm
+  double effect = 0;
+  /// Interval of the effect, infinite where the pairs are too few. Of a mean: 95 %. Of a median: each
+  /// bound with 95 % confidence.
+  double at_least = -std::numeric_limits<double>::infinity();
+  double at_most = std::numeric_limits<double>::infinity();
+  double p_value = 1;
+  double adjusted_p = 1;  ///< Holm's, over the rows of its metric that judge together
+  std::optional<Confirmation> confirmation = {};
+  double noise = 0;  ///< standard error of the effect between equal builds
+  double floor = 0;  ///< the metric's, or what the noise asks for
+  double detectable = std::numeric_limits<double>::infinity();  ///< effect that is found 19 times of 20
+  std::optional<Verdict> verdict = {};                          ///< none: it informs
+
+  std::size_t worse() const;   ///< pairs above zero: of success, instances lost
+  std::size_t better() const;  ///< pairs below: instances gained
+};
+
+/// From its pairs: effect, interval and p value, adjusted by nothing.
+void evaluate(Difference& row);
+
+/// A metric of recorded results, evaluated.
+Difference measured(const Metric& metric, const std::vector<const db::PairedCell*>& cells,
+                    std::optional<std::size_t> cell);
+
+/// Adjusts the p values of one metric's rows and gives verdicts to those that judge. Those of kFreshPairs
+/// wait for second_look().
+void judge_rows(const std::vector<Difference*>& rows);
+
+/// Whether fresh pairs are worth their time: the first look found a slowdown, or cannot rule one out.
+bool needs_second_look(const Difference& row, double tolerance);
+
+/// The verdict of a row of kFreshPairs, after its fresh pairs where it needed some.
+void second_look(Difference& row, double tolerance);
+
+}  // namespace sipplab::bench

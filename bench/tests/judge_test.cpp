@@ -1,0 +1,362 @@
+// Judgements: changes of behaviour, metrics and their verdicts, what numbers say, and the words for all of
+// it.
+#include "bench/judge/judgement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/judge/case_words.hpp"
+#include "bench/judge/evidence.hpp"
+#include "bench/judge/junit.hpp"
+#include "bench/judge/replay_command.hpp"
+#include "bench/judge/report.hpp"
+#include "bench/judge/text_table.hpp"
+
+namespace sipplab::bench {
+namespace {
+
+db::ResultRow solved(std::uint64_t plan, double flowtime_s) {
+  db::ResultRow row;
+  row.status = db::ResultStatus::kSolved;
+  row.plan_hash = plan;
+  row.makespan_s = flowtime_s / 2;
+  row.flowtime_s = flowtime_s;
+  row.planning_time_ns = 1000;
+  row.tries = 1;
+  row.expansions = 10;
+  row.generations = 20;
+  return row;
+}
+
+db::ResultRow failed() {
+  db::ResultRow row;
+  row.planning_time_ns = 1000;
+  return row;
+}
+
+/// A cell of `count` instances that both sides solved alike.
+db::PairedCell equal_cell(std::size_t count) {
+  db::PairedCell cell;
+  cell.parameters.environment = "warehouse";
+  cell.parameters.map_spec = "warehouse";
+  cell.parameters.robots = 64;
+  cell.parameters.ssi_s = 5;
+  cell.parameters.order = "shortest";
+  cell.parameters.reschedule = "deterministic";
+  cell.parameters.seed = 1;
+  cell.same_machine = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const db::ResultRow row = solved(i, 100 + static_cast<double>(i));
+    cell.results.push_back(
+        {"warehouse agents:64 seed:7 index:" + std::to_string(i), "hash " + std::to_string(i), row, row});
+  }
+  return cell;
+}
+
+Judgement judgement_of(std::vector<db::PairedCell> cells, const JudgeOptions& options = {}) {
+  Judgement judgement = measured(std::move(cells));
+  judge(judgement, options);
+  return judgement;
+}
+
+const Difference& row(const Judgement& judgement, const Metric& metric, std::optional<std::size_t> cell = 0) {
+  return *judgement.find(metric, cell);
+}
+
+TEST(Change, NamesTheGravestKind) {
+  const db::ResultRow base = solved(1, 10);
+  EXPECT_FALSE(change(base, base));
+  EXPECT_EQ(change(base, failed())->kind, ChangeKind::kStatus);
+  EXPECT_EQ(change(base, solved(2, 10))->kind, ChangeKind::kPlan);
+  db::ResultRow head = base;
+  head.generations = 21;
+  EXPECT_EQ(change(base, head)->kind, ChangeKind::kWork);
+  head.status = db::ResultStatus::kInvalid;
+  head.message = "robots 1 and 2 overlap";
+  EXPECT_EQ(change(base, head)->kind, ChangeKind::kValidity);
+  EXPECT_EQ(change(base, head)->head, "robots 1 and 2 overlap");
+}
+
+TEST(Change, AClockThatStruckExcusesWork) {
+  db::ResultRow base = failed();
+  base.status = db::ResultStatus::kLimit;
+  base.limit = "time";
+  db::ResultRow head = base;
+  head.expansions = 99;
+  EXPECT_FALSE(change(base, head));
+  head.limit = base.limit = "restarts";
+  EXPECT_TRUE(change(base, head));
+}
+
+TEST(Judgement, EqualSidesAreTheSame) {
+  const std::vector<db::PairedCell> cells = {equal_cell(8)};
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.verdict, Verdict::kSame);
+  EXPECT_EQ(result.all.compared, 8U);
+  EXPECT_DOUBLE_EQ(row(result, kSweepTime).effect, 0);
+  EXPECT_EQ(row(result, kSweepTime).pairs.size(), 8U);
+}
+
+TEST(Judgement, AnotherPlanIsAChangeAndUnderExactARegression) {
+  std::vector<db::PairedCell> cells = {equal_cell(8)};
+  cells[0].results[3].head.plan_hash = 99;
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.verdict, Verdict::kChanged);
+  ASSERT_EQ(result.findings.size(), 1U);
+  EXPECT_EQ(result.findings[0].result, 3U);
+  JudgeOptions exact;
+  exact.changed = Verdict::kRegressed;
+  EXPECT_EQ(judgement_of(cells, exact).all.verdict, Verdict::kRegressed);
+}
+
+TEST(Judgement, OneLostMayBeChanceAndManyAreNot) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  cells[0].results[0].head = failed();
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kInconclusive);
+  // Two hypotheses, the cell and all cells: 7 lost give 2 * 2 / 2^7 = 0.03.
+  for (std::size_t i = 0; i < 7; ++i) cells[0].results[i].head = failed();
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.verdict, Verdict::kRegressed);
+  EXPECT_DOUBLE_EQ(row(result, kSuccess, std::nullopt).adjusted_p, 4.0 / 128);
+  EXPECT_EQ(result.cells[0].both_solved, 13U);
+}
+
+TEST(Judgement, RepetitionsAndEqualFilesAreOneObservation) {
+  // Eight instances, ten plannings each; the head never solves the first.
+  std::vector<db::PairedCell> cells = {equal_cell(80)};
+  for (std::size_t i = 0; i < 80; ++i) {
+    cells[0].results[i].instance_hash = "hash " + std::to_string(i % 8);
+    if (i % 8 == 0) cells[0].results[i].head = failed();
+  }
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.verdict, Verdict::kInconclusive) << result.all.reason;
+  EXPECT_EQ(result.cells[0].instances, 8U);
+  EXPECT_EQ(row(result, kSuccess).worse(), 1U);
+  ASSERT_EQ(result.findings.size(), 1U);
+  EXPECT_EQ(result.findings[0].plannings, 10U);
+  EXPECT_DOUBLE_EQ(row(result, kSuccess, std::nullopt).adjusted_p, 1);
+  EXPECT_EQ(result.cells[0].head_solved, 70U);
+  const std::string text = report_text({result, "sipplab compare", "run 1", "run 2"});
+  EXPECT_NE(text.find("8 (80)"), std::string::npos) << text;
+}
+
+TEST(Judgement, AnInstanceLostInManyCellsIsOneLost) {
+  std::vector<db::PairedCell> cells(7, equal_cell(6));
+  for (db::PairedCell& cell : cells) cell.results[2].head = failed();
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(row(result, kSuccess, std::nullopt).worse(), 1U);
+  EXPECT_EQ(result.all.verdict, Verdict::kInconclusive) << result.all.reason;
+}
+
+TEST(Judgement, AnInstanceSolvedMoreOftenByTheHeadIsGained) {
+  std::vector<db::PairedCell> cells = {equal_cell(6)};
+  for (db::PairedResult& result : cells[0].results) result.instance_hash = "one";
+  cells[0].results[1].base = cells[0].results[2].base = failed();
+  cells[0].results[4].head = failed();
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(row(result, kSuccess).worse(), 0U);
+  EXPECT_EQ(row(result, kSuccess).better(), 1U);
+}
+
+TEST(Judgement, FourInstancesPlannedOftenAreFourFlowtimes) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  for (std::size_t i = 0; i < 20; ++i) {
+    db::PairedResult& result = cells[0].results[i];
+    result.instance_hash = "hash " + std::to_string(i % 4);
+    result.head.flowtime_s = *result.base.flowtime_s * 1.2;
+  }
+  const Judgement result = judgement_of(cells);
+  EXPECT_NEAR(row(result, kFlowtime).effect, std::log(1.2), 1e-9);
+  EXPECT_DOUBLE_EQ(row(result, kFlowtime).adjusted_p, 0.125);  // 2 / 2^4, the least that four can give
+  EXPECT_NE(result.all.verdict, Verdict::kRegressed) << result.all.reason;
+}
+
+TEST(Judgement, WhatTheClockCutShortIsNotCalledTheSame) {
+  std::vector<db::PairedCell> cells = {equal_cell(6)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    cells[0].results[i].base.limit = cells[0].results[i].head.limit = "time";
+    cells[0].results[i].head.plan_hash = 99;
+  }
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.verdict, Verdict::kSame);
+  EXPECT_EQ(result.all.cut_short, 4U);
+  EXPECT_NE(result.all.reason.find("but for 4 that the clock cut short"), std::string::npos)
+      << result.all.reason;
+}
+
+TEST(Judgement, AnInvalidPlanIsARegressionAlone) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  cells[0].results[4].head.status = db::ResultStatus::kInvalid;
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kRegressed);
+}
+
+TEST(Judgement, LongerFlowtimesCountWhenCertainAndLarge) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  for (db::PairedResult& result : cells[0].results) {
+    result.head.flowtime_s = *result.base.flowtime_s * 1.03;
+    result.head.plan_hash = 5000;
+  }
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kRegressed);
+  for (db::PairedResult& result : cells[0].results) result.head.flowtime_s = *result.base.flowtime_s * 1.005;
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kChanged);
+}
+
+TEST(Judgement, TimesOfTwoMachinesSayNothing) {
+  std::vector<db::PairedCell> cells = {equal_cell(3)};
+  cells[0].same_machine = false;
+  EXPECT_TRUE(row(judgement_of(cells), kSweepTime).pairs.empty());
+}
+
+TEST(Judgement, ReportsNameTheInstanceAndTheCommand) {
+  std::vector<db::PairedCell> cells = {equal_cell(4)};
+  cells[0].results[2].head = failed();
+  const Judgement result = judgement_of(cells);
+  const Report report{result, "sipplab compare", "run 1", "run 2"};
+  const std::string command =
+      "sipplab generate --map warehouse --agents 64 --seed 7 --count 3 -o replay && "
+      "sipplab plan --instance replay/2.xml --ssi 5 --reschedule deterministic "
+      "--order shortest --connectedness 2 --seed 1";
+  for (const std::string& text : {report_text(report), report_markdown(report), report_json(report)}) {
+    EXPECT_NE(text.find("index:2"), std::string::npos) << text;
+    EXPECT_NE(text.find(command), std::string::npos) << text;
+  }
+  EXPECT_NE(report_junit(report).find("skipped=\"1\""), std::string::npos);
+}
+
+TEST(Judgement, AllCellsTogetherHaveAnEffectWithItsInterval) {
+  std::vector<db::PairedCell> cells(3, equal_cell(20));
+  for (std::size_t cell = 0; cell < 3; ++cell) {
+    for (std::size_t i = 0; i < 20; ++i) {
+      db::PairedResult& result = cells[cell].results[i];
+      result.instance_hash = "cell " + std::to_string(cell) + " instance " + std::to_string(i);
+      result.head.flowtime_s = *result.base.flowtime_s * (i % 2 == 0 ? 1.01 : 1.03);
+      result.head.expansions = 12;
+    }
+  }
+  const Judgement result = judgement_of(cells);
+  const Difference& flowtime = row(result, kFlowtime, std::nullopt);
+  EXPECT_EQ(flowtime.pairs.size(), 60U);
+  EXPECT_NEAR(flowtime.effect, (std::log(1.01) + std::log(1.03)) / 2, 1e-12);
+  // Student's quantile for 59 degrees of freedom is 2.001.
+  EXPECT_NEAR(flowtime.at_most - flowtime.effect,
+              2.001 * (std::log(1.03) - std::log(1.01)) / 2 / std::sqrt(59.0), 1e-5);
+  EXPECT_NEAR(flowtime.at_least + flowtime.at_most, 2 * flowtime.effect, 1e-12);
+  EXPECT_EQ(flowtime.verdict, std::nullopt);
+  EXPECT_NEAR(std::exp(row(result, kExpansions, std::nullopt).effect), 1.2, 1e-9);
+  EXPECT_NE(
+      report_text({result, "sipplab compare", "a", "b"}).find("over all cells: flowtime +2.00 % (95 %: +1."),
+      std::string::npos);
+}
+
+TEST(Judgement, TheWorstCellIsNamedAndTheOthersAreCounted) {
+  std::vector<db::PairedCell> cells(3, equal_cell(20));
+  for (std::size_t cell = 0; cell < 3; ++cell) {
+    cells[cell].parameters.robots = 64 + static_cast<std::int64_t>(cell);
+    for (db::PairedResult& result : cells[cell].results) {
+      if (cell > 0) result.head.flowtime_s = *result.base.flowtime_s * (1 + 0.02 * static_cast<double>(cell));
+    }
+  }
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(result.all.reason.find("flowtime +4.0 % in warehouse, 66 robots (p = "), 0U) << result.all.reason;
+  EXPECT_NE(result.all.reason.find("; cells like that: 1 more"), std::string::npos) << result.all.reason;
+  EXPECT_EQ(result.cells[0].verdict, Verdict::kSame);
+  EXPECT_EQ(result.cells[1].verdict, Verdict::kRegressed);
+  JudgeOptions no_quality;
+  no_quality.quality = false;
+  EXPECT_LT(judgement_of(cells, no_quality).all.verdict, Verdict::kRegressed);
+}
+
+TEST(Judgement, PlansThatMayDifferAreNoChange) {
+  std::vector<db::PairedCell> cells = {equal_cell(8)};
+  cells[0].results[3].head.plan_hash = 99;
+  JudgeOptions allowed;
+  allowed.changed = Verdict::kEquivalent;
+  EXPECT_EQ(judgement_of(cells, allowed).all.reason, "1 of 8 plannings gave another result, as allowed");
+  Judgement unstable = measured(cells);
+  add_repetition(unstable, {0, 3, {ChangeKind::kRepetition, "a", "b"}});
+  EXPECT_EQ(unstable.all.differing, 1U);  // a planning that differs in two ways is counted once
+  add_repetition(unstable, {0, 5, {ChangeKind::kRepetition, "a", "b"}});
+  EXPECT_EQ(unstable.all.differing, 2U);
+  judge(unstable, allowed);
+  EXPECT_EQ(unstable.all.verdict, Verdict::kRegressed);
+}
+
+TEST(ReplayCommand, TakesFilesAsTheyAre) {
+  db::CaseInfo parameters = equal_cell(0).parameters;
+  parameters.map_spec = "files";
+  parameters.any_angle = false;
+  parameters.planner = "aa-sipp+complete";
+  EXPECT_NE(replay_command(parameters, "a.xml").find(" --fallback complete"), std::string::npos);
+  parameters.planner = "complete";
+  EXPECT_NE(replay_command(parameters, "a.xml").find(" --method complete"), std::string::npos);
+  parameters.planner = "aa-sipp";
+  EXPECT_EQ(replay_command(parameters, "empty/64/3.xml"),
+            "sipplab plan --instance empty/64/3.xml --ssi 5 --reschedule deterministic --order shortest "
+            "--connectedness 2 --no-any-angle --seed 1");
+}
+
+TEST(ReplayCommand, NamesAnotherProgramForWhatItPlanned) {
+  db::CaseInfo parameters = equal_cell(0).parameters;
+  parameters.planner = "cmd:other";
+  EXPECT_EQ(
+      replay_command(parameters, "warehouse agents:64 seed:1 index:3"),
+      "sipplab generate --map warehouse --agents 64 --seed 1 --count 4 -o replay and give replay/3.xml to "
+      "cmd:other");
+  EXPECT_EQ(case_words({parameters}).front(),
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, cmd:other, seed 1");
+}
+
+TEST(ReplayCommand, SaysWhatRobotsAndRulesAreNotAsUsual) {
+  db::CaseInfo parameters = equal_cell(0).parameters;
+  parameters.planner = "aa-sipp+turns+wait:0.5+distance:0.25+time:2";
+  EXPECT_EQ(
+      replay_command(parameters,
+                     "warehouse agents:64 seed:1 index:3 radius:0.3,1.4 speed:0.5,2 headings obstacles:2"),
+      "sipplab generate --map warehouse --agents 64 --seed 1 --count 4 --radius 0.3,1.4 --speed 0.5,2 "
+      "--obstacles 2 --headings -o replay && sipplab plan --instance replay/3.xml --ssi 5 --reschedule "
+      "deterministic --order shortest --connectedness 2 --seed 1 --turns --wait-before-move 0.5 "
+      "--inflate-distance 0.25 --inflate-time 2");
+  EXPECT_EQ(case_words({parameters}).front(),
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, "
+            "any-angle-4+turns+wait:0.5+distance:0.25+time:2, "
+            "seed 1");
+}
+
+TEST(CaseWords, SayWhatTellsCasesApart) {
+  db::CaseInfo one = equal_cell(0).parameters;
+  db::CaseInfo other = one;
+  other.ssi_s = 0;
+  EXPECT_EQ(case_words({one, other}),
+            (std::vector<std::string>{"warehouse, 64 robots, ssi 5", "warehouse, 64 robots, ssi 0"}));
+  EXPECT_EQ(case_words({one}).front(),
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, any-angle-4, seed 1");
+}
+
+TEST(Evidence, HolmMultipliesByTheTestsThatAreLeft) {
+  EXPECT_EQ(holm({0.01, 0.5, 0.02}), (std::vector<double>{0.03, 0.5, 0.04}));
+  EXPECT_EQ(holm({0.4, 0.3}), (std::vector<double>{0.6, 0.6}));
+}
+
+TEST(Junit, EscapesWhatXmlDoesNotTake) {
+  JunitCase test;
+  test.name = "a<b & \"c\"\x01";
+  test.failure = "x > y";
+  const std::string xml = junit_xml("s", {test});
+  EXPECT_NE(xml.find("a&lt;b &amp; &quot;c&quot; \""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("failures=\"1\""), std::string::npos);
+}
+
+TEST(TextTable, SignsSlowdowns) {
+  EXPECT_EQ(percent_more(0), "+0.00 %");
+  EXPECT_EQ(percent_more(std::numeric_limits<double>::infinity()), "-");
+  EXPECT_EQ(markdown_table({{"a", "b"}, {"1", "2"}}, 1), "| a | b |\n|---|---:|\n| 1 | 2 |\n");
+}
+
+}  // namespace
+}  // namespace sipplab::bench
