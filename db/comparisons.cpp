@@ -39,13 +39,14 @@ Error not_found(const Database& database, std::string_view text) {
 
 /// Keys of the runs that `where` (with one parameter) leaves, oldest first.
 Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where, const std::string& value) {
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format("SELECT run.id FROM run JOIN build ON build.id = run.build_id "
-                  "LEFT JOIN commit_ ON commit_.id = run.commit_id "
-                  "WHERE run.excluded_reason IS NULL AND {} ORDER BY run.started_utc, run.id",
-                  where),
-      kReadingRuns);
+  auto select =
+      Statement::prepare(database.connection(),
+                         fmt::format("SELECT run.id FROM run JOIN build ON build.id = run.build_id "
+                                     "LEFT JOIN commit_ ON commit_.id = run.commit_id "
+                                     "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL "
+                                     "AND {} ORDER BY run.started_utc, run.id",
+                                     where),
+                         kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
   std::vector<std::int64_t> ids;
@@ -61,10 +62,11 @@ Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where,
 Result<std::vector<std::string>> commits(Database& database, const char* where, const std::string& value) {
   auto select = Statement::prepare(
       database.connection(),
-      fmt::format("SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
-                  "WHERE run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
-                  "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
-                  where),
+      fmt::format(
+          "SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
+          "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
+          "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
+          where),
       kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
@@ -90,6 +92,8 @@ Result<Sides> as_run(Database& database, const std::string& text) {
   auto ids = run_ids(database, "run.uuid = ?", *uuid);
   if (!ids) return Unexpected{ids.error()};
   if (ids->empty()) {
+    const auto report = show_run(database, *uuid);
+    if (report && !report->run.excluded_reason) return Sides{};  // of a kind without cases
     return Unexpected{Error{ErrorKind::kNotFound,
                             fmt::format("{}: run {} is excluded, expected one that counts (`sipplab runs "
                                         "--include` takes an exclusion back)",
@@ -105,7 +109,7 @@ Result<Sides> as_run(Database& database, const std::string& text) {
   return Sides{std::move(side)};
 }
 
-/// The runs of builds of just this commit; where there is none, those with uncommitted changes.
+/// The runs of builds of just this commit; if there is none, those with uncommitted changes.
 Result<Sides> of_commit(Database& database, const std::string& hash, const std::string& title) {
   auto clean = run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash);
   if (!clean) return Unexpected{clean.error()};

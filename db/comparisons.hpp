@@ -25,8 +25,8 @@ struct ComparisonSide {
 
 /// `text`: "latest", a UUID or its beginning, the beginning of a commit's hash, or a branch
 /// as recorded (its newest commit); "run:", "commit:" and "branch:" before it say which is
-/// meant. Excluded runs do not count, nor do runs of builds with uncommitted changes where a commit or
-/// branch has others. An error where it names nothing, or several things.
+/// meant. Excluded runs do not count, nor do runs of builds with uncommitted changes if a commit or
+/// branch has others. An error if it names nothing, or several things.
 Result<ComparisonSide> resolve_side(Database& database, std::string_view text);
 
 /// One instance as both sides planned it.

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// SQLite's own words for these ("unable to open database file") help nobody.
+// SQLite's own message for these ("unable to open database file") does not say what is wrong.
 std::optional<Error> find_path_error(const fs::path& path, bool must_exist) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
@@ -62,7 +62,7 @@ bool has_write_ahead_log(const fs::path& path) {
 }
 
 // On a read-only medium SQLite cannot place its lock files. Without a log to replay
-// the file alone is the whole database, and nobody can be writing to it.
+// the file alone is the whole database, and no process can be writing to it.
 Result<sqlite::Connection> open_for_reading(const fs::path& path, SchemaState& state) {
   auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly);
   if (!connection) return connection;

@@ -175,7 +175,8 @@ class Examination {
 
   Result<Done> unfinished_runs() {
     auto select = Statement::prepare(
-        connection_, "SELECT uuid, writer, suite FROM run WHERE status = 'running' AND origin = ''",
+        connection_,
+        "SELECT uuid, writer, suite FROM run WHERE kind = 'sweep' AND status = 'running' AND origin = ''",
         kExamining);
     if (!select) return Unexpected{select.error()};
     std::vector<std::pair<std::string, std::string>> dead;
@@ -198,7 +199,8 @@ class Examination {
 
   Result<Done> empty_runs() {
     const auto empty = texts(
-        "SELECT uuid FROM run WHERE status <> 'running' AND excluded_reason IS NULL "
+        "SELECT uuid FROM run WHERE kind IN ('sweep', 'report') AND status <> 'running' AND excluded_reason "
+        "IS NULL "
         "AND NOT EXISTS (SELECT 1 FROM cell WHERE cell.run_id = run.id) "
         "AND NOT EXISTS (SELECT 1 FROM measurement WHERE measurement.run_id = run.id)");
     if (!empty) return Unexpected{empty.error()};

@@ -13,32 +13,13 @@ using sqlite::Statement;
 
 constexpr const char* kWritingFinding = "writing a finding";
 constexpr const char* kReadingFindings = "reading findings";
-constexpr const char* kColumns =
-    "id, target, kind, claim, frames, message, (SELECT input FROM finding WHERE finding.id = v_findings.id), "
-    "minimal, robots, cells, state, first_utc, last_utc, first_commit, last_commit, fixed_commit, "
-    "times_found";
+constexpr const char* kSelect =
+    "SELECT v_findings.*, (SELECT input FROM finding WHERE finding.id = v_findings.id) AS input FROM "
+    "v_findings";
 
 StoredFinding read_finding(const Statement& row) {
   StoredFinding stored;
-  int column = 0;
-  stored.id = row.integer(column++);
-  Finding& finding = stored.finding;
-  finding.target = row.text(column++);
-  finding.kind = row.text(column++);
-  finding.claim = row.text(column++);
-  finding.frames = row.text(column++);
-  finding.message = row.text(column++);
-  finding.input = row.text(column++);
-  finding.minimal = row.text(column++);
-  finding.robots = row.optional_integer(column++);
-  finding.cells = row.optional_integer(column++);
-  stored.state = row.text(column++);
-  stored.first_utc = row.text(column++);
-  stored.last_utc = row.text(column++);
-  stored.first_commit = row.optional_text(column++);
-  stored.last_commit = row.optional_text(column++);
-  stored.fixed_commit = row.optional_text(column++);
-  stored.times_found = row.integer(column);
+  read_row(row, [&stored](auto visit) { StoredFinding::columns(stored, visit); });
   return stored;
 }
 
@@ -62,17 +43,18 @@ Result<Done> add_event(sqlite::Connection& connection, std::int64_t id, const st
 
 Result<Done> insert_finding(sqlite::Connection& connection, const Finding& finding,
                             std::optional<std::int64_t> commit, const std::string& now_utc) {
-  auto insert = Statement::prepare(
-      connection,
-      "INSERT INTO finding (target, signature, kind, claim, frames, message, state, first_utc, last_utc, "
-      "first_commit_id, last_commit_id, times_found, input, minimal, robots, cells) VALUES "
-      "(?1, ?2, ?3, ?4, ?5, ?6, 'new', ?7, ?7, ?8, ?8, 1, CAST(?9 AS BLOB), CAST(?10 AS BLOB), ?11, ?12)",
-      kWritingFinding);
-  if (!insert) return Unexpected{insert.error()};
-  return insert
-      ->bind(finding.target, finding.signature(), finding.kind, finding.claim, finding.frames,
-             finding.message, now_utc, commit, finding.input, finding.minimal, finding.robots, finding.cells)
-      .run();
+  const auto id = insert_row(connection, "finding", kWritingFinding, [&](auto visit) {
+    visit("signature", finding.signature());
+    visit("state", "new");
+    visit("first_utc", now_utc);
+    visit("last_utc", now_utc);
+    visit("first_commit_id", commit);
+    visit("last_commit_id", commit);
+    visit("times_found", 1);
+    Finding::columns(finding, visit);
+  });
+  if (!id) return Unexpected{id.error()};
+  return Done{};
 }
 
 /// Moves a finding that is there on to its next state.
@@ -97,9 +79,8 @@ Result<Done> note_sighting(sqlite::Connection& connection, const StoredFinding& 
 
 Result<std::optional<StoredFinding>> find_by_signature(sqlite::Connection& connection,
                                                        const Finding& finding) {
-  auto select = Statement::prepare(
-      connection, fmt::format("SELECT {} FROM v_findings WHERE target = ? AND signature = ?", kColumns),
-      kReadingFindings);
+  auto select = Statement::prepare(connection, fmt::format("{} WHERE target = ? AND signature = ?", kSelect),
+                                   kReadingFindings);
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(finding.target, finding.signature()).step();
   if (!row) return Unexpected{row.error()};
@@ -119,51 +100,50 @@ Result<Done> keep_smaller(sqlite::Connection& connection, const StoredFinding& s
 
 }  // namespace
 
-Result<StoredFinding> record_finding(Database& database, const FuzzOrigin& origin, const Finding& finding,
+Result<StoredFinding> record_finding(Database& database, const RunOrigin& origin, const Finding& finding,
                                      std::optional<std::int64_t> fuzz_run, const std::string& now_utc) {
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
-  if (!keys) return Unexpected{keys.error()};
+  const auto commit = commit_id(connection, origin.commit);
+  if (!commit) return Unexpected{commit.error()};
   const auto known = find_by_signature(connection, finding);
   if (!known) return Unexpected{known.error()};
   std::int64_t id = 0;
   if (known->has_value()) {
     id = (*known)->id;
-    auto done = note_sighting(connection, **known, true, true, keys->commit, fuzz_run, now_utc);
+    auto done = note_sighting(connection, **known, true, true, *commit, fuzz_run, now_utc);
     if (done) done = keep_smaller(connection, **known, finding);
     if (!done) return Unexpected{done.error()};
   } else {
-    auto done = insert_finding(connection, finding, keys->commit, now_utc);
+    auto done = insert_finding(connection, finding, *commit, now_utc);
     id = connection.last_insert_rowid();
-    if (done) done = add_event(connection, id, "found", now_utc, keys->commit, fuzz_run);
+    if (done) done = add_event(connection, id, "found", now_utc, *commit, fuzz_run);
     if (!done) return Unexpected{done.error()};
   }
   if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
   return find_finding(database, id);
 }
 
-Result<StoredFinding> record_replay(Database& database, const FuzzOrigin& origin, std::int64_t id,
-                                    bool breaks, const std::string& now_utc) {
+Result<StoredFinding> record_replay(Database& database, const RunOrigin& origin, std::int64_t id, bool breaks,
+                                    const std::string& now_utc) {
   auto& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const auto keys = origin_keys(connection, origin.commit, origin.machine, origin.build);
-  if (!keys) return Unexpected{keys.error()};
+  const auto commit = commit_id(connection, origin.commit);
+  if (!commit) return Unexpected{commit.error()};
   const auto stored = find_finding(database, id);
   if (!stored) return stored;
-  auto done = note_sighting(connection, *stored, breaks, false, keys->commit, std::nullopt, now_utc);
+  auto done = note_sighting(connection, *stored, breaks, false, *commit, std::nullopt, now_utc);
   if (done) done = transaction->commit();
   if (!done) return Unexpected{done.error()};
   return find_finding(database, id);
 }
 
 Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_only) {
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format("SELECT {} FROM v_findings WHERE NOT ? OR state <> 'fixed' ORDER BY id", kColumns),
-      kReadingFindings);
+  auto select = Statement::prepare(database.connection(),
+                                   fmt::format("{} WHERE NOT ? OR state <> 'fixed' ORDER BY id", kSelect),
+                                   kReadingFindings);
   if (!select) return Unexpected{select.error()};
   select->bind(open_only);
   std::vector<StoredFinding> findings;
@@ -177,8 +157,7 @@ Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_o
 
 Result<StoredFinding> find_finding(Database& database, std::int64_t id) {
   auto select =
-      Statement::prepare(database.connection(),
-                         fmt::format("SELECT {} FROM v_findings WHERE id = ?", kColumns), kReadingFindings);
+      Statement::prepare(database.connection(), fmt::format("{} WHERE id = ?", kSelect), kReadingFindings);
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(id).step();
   if (!row) return Unexpected{row.error()};
@@ -189,21 +168,15 @@ Result<StoredFinding> find_finding(Database& database, std::int64_t id) {
 }
 
 Result<Table> finding_events(Database& database, std::int64_t id) {
-  auto select = Statement::prepare(database.connection(),
-                                   "SELECT event, happened_utc, commit_.hash FROM finding_event LEFT JOIN "
-                                   "commit_ ON commit_.id = commit_id "
-                                   "WHERE finding_id = ? ORDER BY happened_utc",
-                                   kReadingFindings);
+  auto select =
+      Statement::prepare(database.connection(),
+                         "SELECT event, happened_utc, commit_.hash AS commit_hash FROM finding_event "
+                         "LEFT JOIN commit_ ON commit_.id = commit_id "
+                         "WHERE finding_id = ? ORDER BY happened_utc",
+                         kReadingFindings);
   if (!select) return Unexpected{select.error()};
   select->bind(id);
-  Table table{{"event", "happened_utc", "commit_hash"}, {}};
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return table;
-    const auto hash = select->optional_text(2);
-    table.rows.push_back({select->text(0), select->text(1), hash ? Value{*hash} : Value{Null{}}});
-  }
+  return rest_of(*select);
 }
 
 }  // namespace sipplab::db

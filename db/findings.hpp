@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "db/column_tags.hpp"
 #include "db/database.hpp"
 #include "db/error.hpp"
 #include "db/fuzz_runs.hpp"
@@ -27,6 +28,19 @@ struct Finding {
   std::optional<std::int64_t> cells;
 
   std::string signature() const { return kind + " | " + claim + " | " + frames; }
+
+  template <class Self, class Visit>
+  static void columns(Self& self, Visit&& visit) {
+    visit("target", self.target);
+    visit("kind", self.kind);
+    visit("claim", self.claim);
+    visit("frames", self.frames);
+    visit("message", self.message);
+    visit("input", AsBlob{self.input});
+    visit("minimal", AsBlob{self.minimal});
+    visit("robots", self.robots);
+    visit("cells", self.cells);
+  }
 };
 
 /// A finding as it is stored.
@@ -40,21 +54,34 @@ struct StoredFinding {
   std::optional<std::string> last_commit;
   std::optional<std::string> fixed_commit;
   std::int64_t times_found = 0;
+
+  template <class Self, class Visit>
+  static void columns(Self& self, Visit&& visit) {
+    visit("id", self.id);
+    Finding::columns(self.finding, visit);
+    visit("state", self.state);
+    visit("first_utc", self.first_utc);
+    visit("last_utc", self.last_utc);
+    visit("first_commit", self.first_commit);
+    visit("last_commit", self.last_commit);
+    visit("fixed_commit", self.fixed_commit);
+    visit("times_found", self.times_found);
+  }
 };
 
 /// Stores it, or notes that it was found again: the state moves on, the smaller of two
 /// minimal inputs stays. `fuzz_run` is the run that found it. Gives what is stored then.
-Result<StoredFinding> record_finding(Database& database, const FuzzOrigin& origin, const Finding& finding,
+Result<StoredFinding> record_finding(Database& database, const RunOrigin& origin, const Finding& finding,
                                      std::optional<std::int64_t> fuzz_run, const std::string& now_utc);
 
 /// Notes what replaying its minimal input gave: it breaks as before, or it holds.
-Result<StoredFinding> record_replay(Database& database, const FuzzOrigin& origin, std::int64_t id,
-                                    bool breaks, const std::string& now_utc);
+Result<StoredFinding> record_replay(Database& database, const RunOrigin& origin, std::int64_t id, bool breaks,
+                                    const std::string& now_utc);
 
 /// All findings, or those that are not fixed; in order of their id.
 Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_only);
 
-/// An error where there is none of that id.
+/// An error if there is none of that id.
 Result<StoredFinding> find_finding(Database& database, std::int64_t id);
 
 /// What happened to it, in turn: event, happened_utc, commit_hash.

@@ -62,16 +62,9 @@ struct FuzzRun {
   std::vector<FuzzCount> counts;
 };
 
-/// What all rows of a campaign have in common.
-struct FuzzOrigin {
-  std::optional<CommitInfo> commit;  ///< none outside a checkout
-  std::string branch;
-  MachineInfo machine;
-  BuildInfo build;  ///< of the program that records; targets are known by their own hash
-};
-
-/// Writes a run with its snapshots and counts in one transaction; gives its id.
-Result<std::int64_t> record_fuzz_run(Database& database, const FuzzOrigin& origin, const FuzzRun& run);
+/// Writes a run with its snapshots and counts in one transaction; gives its id. The build of the origin is
+/// that of the program that records; targets are known by their own hash.
+Result<std::int64_t> record_fuzz_run(Database& database, const RunOrigin& origin, const FuzzRun& run);
 
 /// Whether this very program of a target has run for a time and found nothing.
 Result<bool> is_fuzzed_clean(Database& database, const std::string& target, const std::string& target_hash);
@@ -84,7 +77,7 @@ struct FileCoverage {
 Result<Done> record_fuzz_coverage(Database& database, const std::string& campaign,
                                   const std::vector<FileCoverage>& files);
 
-/// The campaign of the newest run; an error where there is none.
+/// The campaign of the newest run; an error if there is none.
 Result<std::string> latest_fuzz_campaign(Database& database);
 
 struct FuzzRunFilter {

@@ -16,32 +16,27 @@ using sqlite::Statement;
 
 constexpr std::string_view kWritingGateRun = "writing a gate run";
 
-Result<std::int64_t> insert_run(Connection& connection, const GateRun& run, const std::string& uuid) {
-  const auto machine = machine_id(connection, run.machine);
-  if (!machine) return machine;
+Result<std::int64_t> insert_gate_run(Connection& connection, const GateRun& run) {
   const auto base_build = build_id(connection, run.base_build);
   if (!base_build) return base_build;
-  const auto head_build = build_id(connection, run.head_build);
-  if (!head_build) return head_build;
   const auto base_commit = commit_id(connection, run.base_commit);
   if (!base_commit) return Unexpected{base_commit.error()};
-  const auto head_commit = commit_id(connection, run.head_commit);
-  if (!head_commit) return Unexpected{head_commit.error()};
-  auto insert = Statement::prepare(
-      connection,
-      "INSERT INTO gate_run (uuid, started_utc, kind, suite, method, machine_id, base_build_id, "
-      "head_build_id, base_commit_id, head_commit_id, seed, pair_seconds, tolerance, injected_slowdown, "
-      "wall_time_ns, "
-      "compared, differing, verdict, reason) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-      "?)",
-      kWritingGateRun);
-  if (!insert) return Unexpected{insert.error()};
-  insert->bind(uuid, run.started_utc, run.calibration ? "calibration" : "comparison", run.suite, run.method,
-               *machine, *base_build, *head_build, *base_commit, *head_commit, to_bits(run.seed),
-               run.pair_seconds, run.tolerance, run.injected_slowdown, run.wall_time_ns, run.compared,
-               run.differing, run.verdict, run.reason);
-  if (auto done = insert->run(); !done) return Unexpected{done.error()};
-  return connection.last_insert_rowid();
+  const auto run_id = insert_run(connection, run, finished_run("gate", run.suite, run.verdict, run));
+  if (!run_id) return Unexpected{run_id.error()};
+  return insert_row(connection, "gate_run", kWritingGateRun, [&](auto visit) {
+    visit("run_id", *run_id);
+    visit("kind", run.calibration ? "calibration" : "comparison");
+    visit("method", run.method);
+    visit("base_build_id", *base_build);
+    visit("base_commit_id", *base_commit);
+    visit("pair_seconds", run.pair_seconds);
+    visit("tolerance", run.tolerance);
+    visit("injected_slowdown", run.injected_slowdown);
+    visit("wall_time_ns", run.wall_time_ns);
+    visit("compared", run.compared);
+    visit("differing", run.differing);
+    visit("reason", run.reason);
+  });
 }
 
 Result<Done> insert_pairs(Connection& connection, std::int64_t cell, const GateCellRow& row) {
@@ -107,19 +102,19 @@ Result<Done> insert_differences(Connection& connection, std::int64_t run,
 
 }  // namespace
 
-Result<std::string> record_gate_run(Database& database, const GateRun& run) {
+Result<std::string> record_gate_run(Database& database, GateRun run) {
   Connection& connection = database.connection();
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
-  const std::string uuid = new_uuid();
-  const auto id = insert_run(connection, run, uuid);
+  run.uuid = new_uuid();
+  const auto id = insert_gate_run(connection, run);
   if (!id) return Unexpected{id.error()};
   if (auto done = insert_cells(connection, *id, run.cells); !done) return Unexpected{done.error()};
   if (auto done = insert_differences(connection, *id, run.differences); !done) {
     return Unexpected{done.error()};
   }
   if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
-  return uuid;
+  return run.uuid;
 }
 
 Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& kind) {
@@ -131,10 +126,10 @@ Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& ki
                   "JOIN gate_pair ON gate_pair.gate_cell_id = gate_cell.id AND gate_pair.stage = 1 "
                   "LEFT JOIN case_ ON case_.id = gate_cell.case_id "
                   "WHERE gate_cell.gate_run_id IN (SELECT gate_run.id FROM gate_run "
-                  "  JOIN machine ON machine.id = gate_run.machine_id "
-                  "  WHERE machine.fingerprint = ? AND gate_run.suite = ? AND gate_run.method = ? "
-                  "    AND gate_run.pair_seconds = ? "
-                  "    AND gate_run.kind = 'calibration' ORDER BY gate_run.started_utc DESC LIMIT ?) "
+                  "  JOIN run ON run.id = gate_run.run_id JOIN machine ON machine.id = run.machine_id "
+                  "  WHERE machine.fingerprint = ? AND run.suite = ? AND gate_run.method = ? "
+                  "    AND gate_run.pair_seconds = ? AND gate_run.kind = 'calibration' "
+                  "    AND run.excluded_reason IS NULL ORDER BY run.started_utc DESC LIMIT ?) "
                   "ORDER BY gate_cell.case_id, gate_cell.id, gate_pair.pair",
                   kCaseColumns),
       "reading the noise of this machine");

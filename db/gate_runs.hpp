@@ -37,15 +37,14 @@ struct GateDifferenceRow {
   std::string head;
 };
 
-struct GateRun {
+/// Its origin is the head: the commit and build that are judged.
+struct GateRun : RunOrigin {
+  std::string uuid;  ///< given when it is recorded
   bool calibration = false;
   std::string suite;
   std::int64_t method = 0;
-  MachineInfo machine;
   BuildInfo base_build;
-  BuildInfo head_build;
   std::optional<CommitInfo> base_commit;
-  std::optional<CommitInfo> head_commit;
   std::uint64_t seed = 0;
   double pair_seconds = 0;  ///< that each pair of processes planned for
   double tolerance = 0;
@@ -61,7 +60,7 @@ struct GateRun {
 };
 
 /// Writes everything in one transaction. Returns the UUID.
-Result<std::string> record_gate_run(Database& database, const GateRun& run);
+Result<std::string> record_gate_run(Database& database, GateRun run);
 
 /// What calibrations said about one row: the pairs of each comparison of equal builds.
 struct GateNoise {
@@ -77,7 +76,7 @@ struct GateKind {
   double pair_seconds = 0;
 };
 
-/// Of the newest calibrations of that kind; empty where there is none.
+/// Of the newest calibrations of that kind; empty if there is none.
 Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& kind);
 
 }  // namespace sipplab::db

@@ -13,10 +13,10 @@ std::string new_uuid();
 std::string utc_now();
 
 /// Names this process so that no other has the same name, even after a restart of the
-/// machine: "BOOT-ID PID START-TIME". Just "PID" where the system does not tell.
+/// machine: "BOOT-ID PID START-TIME". Just "PID" if the system does not tell.
 std::string this_process();
 
-/// Whether the process of that name is still there. False where that cannot be told.
+/// Whether the process of that name is still there. False if that cannot be told.
 bool is_alive(std::string_view process);
 
 }  // namespace sipplab::db

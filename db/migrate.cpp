@@ -29,6 +29,16 @@ Error older(const sqlite::Connection& connection, std::int64_t version, int firs
                   connection.name(), version, first)};
 }
 
+Result<Done> check_foreign_keys(sqlite::Connection& connection, const Migration& step) {
+  const auto orphans = connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", step.name);
+  if (!orphans) return Unexpected{orphans.error()};
+  if (*orphans == 0) return Done{};
+  return Unexpected{
+      Error{ErrorKind::kInternal,
+            fmt::format("{}: {} rows point to rows that are not there, expected none after migration {}",
+                        connection.name(), *orphans, step.name)}};
+}
+
 Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
   auto transaction = sqlite::Transaction::begin(connection);
   if (!transaction) return Unexpected{transaction.error()};
@@ -39,6 +49,7 @@ Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
 
   const std::string doing = fmt::format("applying migration {}", step.name);
   if (auto done = connection.execute(std::string{step.sql}, doing); !done) return done;
+  if (auto done = check_foreign_keys(connection, step); !done) return done;
   const std::string header =
       fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, step.version);
   if (auto done = connection.execute(header, doing); !done) return done;
@@ -74,11 +85,19 @@ Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migr
 Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> steps) {
   const auto version = connection.query_int("PRAGMA user_version", kReadingHeader);
   if (!version) return Unexpected{version.error()};
+  if (*version >= steps.back().version) return Done{};
+  const auto enforced = connection.query_int("PRAGMA foreign_keys", kReadingHeader);
+  if (!enforced) return Unexpected{enforced.error()};
+  // A table that others refer to can be dropped and made anew without enforcement only, which
+  // cannot change within a transaction. Each step checks its result instead.
+  if (auto done = connection.execute("PRAGMA foreign_keys = OFF", "preparing migrations"); !done) return done;
+  Result<Done> done = Done{};
   for (const Migration& step : steps) {
-    if (step.version <= *version) continue;
-    if (auto done = apply(connection, step); !done) return done;
+    if (done && step.version > *version) done = apply(connection, step);
   }
-  return Done{};
+  if (*enforced == 0) return done;
+  const auto restored = connection.execute("PRAGMA foreign_keys = ON", "ending migrations");
+  return done ? restored : done;
 }
 
 }  // namespace sipplab::db

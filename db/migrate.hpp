@@ -37,7 +37,7 @@ Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migr
 
 /// Applies the steps that are missing, each in a transaction of its own that also
 /// sets user_version. Does nothing on a file that is up to date. Safe when several
-/// processes do it at once.
+/// processes do it at once. Foreign keys are checked at the end of each step, not within.
 Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> steps);
 
 }  // namespace sipplab::db

@@ -11,39 +11,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+void put(Json& json, const char* name, const std::string& value) { json[name] = value; }
+void put(Json& json, const char* name, const MaybeEmpty<const std::string>& value) {
+  json[name] = value.text.empty() ? Json() : Json(value.text);
+}
+template <class T>
+void put(Json& json, const char* name, const std::optional<T>& value) {
+  json[name] = value ? Json(*value) : Json();
+}
+template <class T>
+void put(Json& json, const char* name, const T& value) {
+  json[name] = value;
+}
+
 Json json_of(const PropertyReport& report) {
-  const PropertyRun& run = report.run;
   Json json;
+  const auto visit = [&json](const char* name, const auto& value) { put(json, name, value); };
   json["id"] = report.id;
-  json["property_run"] = run.uuid;
-  json["started_utc"] = run.started_utc;
-  json["room"] = run.room;
-  json["title"] = run.title;
-  json["mutant"] = report.mutant;
-  json["status"] = run.status;
-  json["cases"] = run.cases;
-  json["discards"] = run.discards;
-  json["shrinks"] = run.shrinks;
-  json["shrink_tries"] = run.shrink_tries;
-  json["wall_time_ns"] = run.wall_time_ns;
-  json["seed"] = run.seed;
-  json["max_success"] = run.max_success;
-  json["commit_hash"] = report.commit_hash ? Json(*report.commit_hash) : Json();
-  json["branch"] = report.branch;
-  json["dirty"] = report.dirty;
-  json["host"] = report.host;
-  json["compiler"] = report.compiler;
-  json["build_type"] = report.build_type;
-  json["sanitizers"] = report.sanitizers;
+  json["property_run"] = report.run.uuid;
+  PropertyRun::origin_columns(report.run, visit);
+  json.erase("uuid");
+  PropertyRun::columns(report.run, visit);
   json["classes"] = Json::object();
-  for (const auto& [name, cases] : run.classes) json["classes"][name] = cases;
-  const auto optional = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
-  json["message"] = optional(run.message);
-  json["reproduce"] = optional(run.reproduce);
-  json["counterexample"] = optional(run.counterexample);
-  json["plan_case"] = optional(run.plan_case);
-  json["case_robots"] = run.case_robots ? Json(*run.case_robots) : Json();
-  json["case_cells"] = run.case_cells ? Json(*run.case_cells) : Json();
+  for (const auto& [name, cases] : report.run.classes) json["classes"][name] = cases;
+  PropertyReport::columns(report, visit);
   return json;
 }
 

@@ -3,51 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "db/database.hpp"
 #include "db/error.hpp"
+#include "db/property_run.hpp"
 #include "db/records.hpp"
 #include "db/table.hpp"
 
 namespace sipplab::db {
-
-/// One check of one property. Names and units are those of the SQL columns.
-struct PropertyRun {
-  std::string uuid;
-  std::string started_utc;
-  std::string room;
-  std::string title;
-  std::uint64_t seed = 0;
-  std::int64_t max_success = 0;
-  std::string status;  ///< "passed", "failed", "gave_up", "crashed"
-  std::int64_t cases = 0;
-  std::int64_t discards = 0;
-  std::int64_t shrinks = 0;
-  std::int64_t shrink_tries = 0;
-  std::int64_t wall_time_ns = 0;
-  std::map<std::string, std::int64_t> classes;  ///< class to cases in it
-
-  // Of a failure; empty where there is none.
-  std::string message;
-  std::string reproduce;
-  std::string counterexample;
-  std::string plan_case;
-  std::optional<std::int64_t> case_robots;
-  std::optional<std::int64_t> case_cells;
-};
-
-/// What a log of property runs has in common.
-struct PropertyOrigin {
-  std::optional<CommitInfo> commit;  ///< none outside a checkout
-  std::string branch;
-  MachineInfo machine;
-  BuildInfo build;     ///< of the program that records; the properties come from its build folder
-  std::string mutant;  ///< name of the bug that was planted in the planner; empty for none
-};
 
 struct PropertyRecorded {
   std::size_t added = 0;
@@ -55,9 +21,12 @@ struct PropertyRecorded {
 };
 
 /// Writes all runs in one transaction: all or nothing. Runs that the file holds already
-/// stay as they are, but for one that seemed to have crashed and ended after all.
-Result<PropertyRecorded> record_property_runs(Database& database, const PropertyOrigin& origin,
-                                              const std::vector<PropertyRun>& runs);
+/// stay as they are, but for one that seemed to have crashed and ended after all. The build of the origin is
+/// that of the program that records; the properties come from its build folder. `mutant` names the
+/// bug that was planted in the planner; empty for none.
+Result<PropertyRecorded> record_property_runs(Database& database, const RunOrigin& origin,
+                                              const std::vector<PropertyRun>& runs,
+                                              const std::string& mutant = "");
 
 struct PropertyFilter {
   std::optional<std::string> room;
@@ -82,12 +51,26 @@ struct PropertyReport {
   std::string compiler;  ///< with its version
   std::string build_type;
   std::string sanitizers;
+
+  /// Without those of the run.
+  template <class Self, class Visit>
+  static void columns(Self& self, Visit&& visit) {
+    visit("id", self.id);
+    visit("mutant", self.mutant);
+    visit("commit_hash", self.commit_hash);
+    visit("branch", self.branch);
+    visit("dirty", self.dirty);
+    visit("host", self.host);
+    visit("compiler", self.compiler);
+    visit("build_type", self.build_type);
+    visit("sanitizers", self.sanitizers);
+  }
 };
 
-/// The run with that id; an error where there is none.
+/// The run with that id; an error if there is none.
 Result<PropertyReport> show_property_run(Database& database, std::int64_t id);
 
-/// The newest run that failed, planted bugs left out; an error where there is none.
+/// The newest run that failed, planted bugs left out; an error if there is none.
 Result<std::int64_t> latest_property_failure(Database& database);
 
 /// Text for a person; for kJson one object, for kCsv "key,value" lines.

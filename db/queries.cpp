@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "db/columns.hpp"
 #include "db/identity.hpp"
+#include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
 
@@ -16,58 +18,22 @@ using sqlite::Statement;
 
 constexpr std::string_view kListing = "listing runs";
 
-constexpr const char* kRunColumns =
-    "SELECT run, suite, status, started_utc, ended_utc, commit_hash, commit_subject, branch, dirty, host, "
-    "cpu_model, compiler || ' ' || compiler_version, build_type, command_line, cases, results, solved, "
-    "invalid, "
-    "excluded_reason FROM v_runs ";
+constexpr const char* kSelectRuns =
+    "SELECT v_runs.*, compiler || ' ' || compiler_version AS compiler_name FROM v_runs ";
+
+/// What `latest` and a list without a kind are about: runs that can be compared and plotted.
+constexpr const char* kComparable = "kind IN ('sweep', 'report')";
 
 RunSummary read_run(const Statement& row) {
   RunSummary run;
-  int column = 0;
-  run.uuid = row.text(column++);
-  run.suite = row.text(column++);
-  run.status = row.text(column++);
-  run.started_utc = row.text(column++);
-  run.ended_utc = row.optional_text(column++);
-  run.commit_hash = row.optional_text(column++);
-  run.commit_subject = row.optional_text(column++);
-  run.branch = row.text(column++);
-  run.dirty = row.integer(column++) != 0;
-  run.host = row.text(column++);
-  run.cpu_model = row.text(column++);
-  run.compiler = row.text(column++);
-  run.build_type = row.text(column++);
-  run.command_line = row.text(column++);
-  run.cases = row.integer(column++);
-  run.results = row.integer(column++);
-  run.solved = row.integer(column++);
-  run.invalid = row.integer(column++);
-  run.excluded_reason = row.optional_text(column);
+  read_row(row, [&run](auto visit) { RunSummary::columns(run, visit); });
+  run.compiler = row.text(row.column("compiler_name"));
   return run;
 }
 
 CellSummary read_cell(const Statement& row) {
   CellSummary cell;
-  int column = 0;
-  cell.environment = row.text(column++);
-  cell.robots = row.integer(column++);
-  cell.ssi_s = row.real(column++);
-  cell.reschedule = row.text(column++);
-  cell.order = row.text(column++);
-  cell.planner = row.text(column++);
-  cell.any_angle = row.integer(column++) != 0;
-  cell.connectedness = row.integer(column++);
-  cell.results = row.integer(column++);
-  cell.solved = row.integer(column++);
-  cell.limited = row.integer(column++);
-  cell.invalid = row.integer(column++);
-  for (std::optional<double>* value :
-       {&cell.success_rate, &cell.mean_planning_time_s, &cell.median_planning_time_s, &cell.mean_makespan_s,
-        &cell.median_makespan_s, &cell.mean_flowtime_s, &cell.median_flowtime_s, &cell.mean_tries,
-        &cell.mean_expansions}) {
-    *value = row.optional_real(column++);
-  }
+  read_row(row, [&cell](auto visit) { CellSummary::columns(cell, visit); });
   return cell;
 }
 
@@ -86,18 +52,28 @@ Result<std::vector<Row>> collect(Statement& statement, Row (*read)(const Stateme
 Result<std::vector<CellSummary>> cells_of(Database& database, const std::string& uuid) {
   auto select = Statement::prepare(
       database.connection(),
-      "SELECT environment, robots, ssi_s, reschedule, initial_order, planner, any_angle, connectedness, "
-      "results, "
-      "solved, limited, invalid, success_rate, mean_planning_time_s, median_planning_time_s, "
-      "mean_makespan_s, "
-      "median_makespan_s, mean_flowtime_s, median_flowtime_s, mean_tries, mean_expansions FROM v_run_cells "
-      "WHERE run = ? ORDER BY environment, planner, any_angle, connectedness, initial_order, reschedule, "
-      "ssi_s, "
-      "robots, case_id",
+      "SELECT * FROM v_run_cells WHERE run = ? ORDER BY environment, planner, any_angle, connectedness, "
+      "initial_order, reschedule, ssi_s, robots, case_id",
       "reading the cells of a run");
   if (!select) return Unexpected{select.error()};
   select->bind(uuid);
   return collect(*select, read_cell);
+}
+
+/// What the view of its kind says of a run that has no cells.
+Result<Table> details_of(Database& database, const RunSummary& run) {
+  const std::string kind = run.kind;
+  const char* from = kind == "report"     ? "v_measurements WHERE run = ?"
+                     : kind == "property" ? "v_property_runs WHERE property_run = ?"
+                     : kind == "fuzz"     ? "v_fuzz_runs WHERE fuzz_run = ?"
+                     : kind == "gate"     ? "v_gate_cells WHERE gate_run = ?"
+                                          : nullptr;
+  if (from == nullptr) return Table{};
+  auto select =
+      Statement::prepare(database.connection(), fmt::format("SELECT * FROM {}", from), "reading a run");
+  if (!select) return Unexpected{select.error()};
+  select->bind(run.uuid);
+  return rest_of(*select);
 }
 
 Result<Done> set_exclusion(Database& database, std::string_view run,
@@ -128,17 +104,16 @@ bool is_uuid_text(std::string_view text) {
 
 Result<std::vector<RunSummary>> list_runs(Database& database, const RunFilter& filter) {
   // LIMIT inside, on the plain table: counts are then made for the runs that are shown.
-  auto select = Statement::prepare(database.connection(),
-                                   std::string{kRunColumns} +
-                                       "WHERE run IN (SELECT uuid FROM run WHERE (?1 IS NULL OR suite = ?1) "
-                                       "AND (?2 OR excluded_reason IS NULL) "
-                                       "ORDER BY started_utc DESC, id DESC LIMIT ?3) "
-                                       "ORDER BY started_utc DESC, run DESC",
-                                   kListing);
+  auto select = Statement::prepare(
+      database.connection(),
+      fmt::format(
+          "{}WHERE run IN (SELECT uuid FROM run WHERE (?1 IS NULL OR suite = ?1) AND (?2 OR excluded_reason "
+          "IS NULL) AND (?4 = 'all' OR kind = ?4 OR (?4 IS NULL AND {})) "
+          "ORDER BY started_utc DESC, id DESC LIMIT ?3) ORDER BY started_utc DESC, run DESC",
+          kSelectRuns, kComparable),
+      kListing);
   if (!select) return Unexpected{select.error()};
-  const std::int64_t no_limit = -1;
-  select->bind(filter.suite, filter.include_excluded,
-               filter.limit == 0 ? no_limit : static_cast<std::int64_t>(filter.limit));
+  select->bind(filter.suite, filter.include_excluded, sql_limit(filter.limit), filter.kind);
   return collect(*select, read_run);
 }
 
@@ -147,7 +122,9 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
   const std::string file = database.path().string();
   if (text == "latest") {
     auto newest = database.connection().query_text(
-        "SELECT uuid FROM run WHERE excluded_reason IS NULL ORDER BY started_utc DESC, id DESC LIMIT 1",
+        fmt::format("SELECT uuid FROM run WHERE {} AND excluded_reason IS NULL "
+                    "ORDER BY started_utc DESC, id DESC LIMIT 1",
+                    kComparable),
         kListing);
     if (!newest && newest.error().kind == ErrorKind::kNotFound) {
       return Unexpected{
@@ -160,29 +137,37 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
                             fmt::format("{}: run '{}', expected latest, a UUID, or at least {} digits of one",
                                         file, text, kShortestPrefix)}};
   }
-  auto select = Statement::prepare(
-      database.connection(), "SELECT uuid FROM run WHERE uuid LIKE ? || '%' ORDER BY uuid LIMIT 2", kListing);
-  if (!select) return Unexpected{select.error()};
-  select->bind(text);
-  const auto found = collect<std::string>(*select, [](const Statement& row) { return row.text(0); });
-  if (!found) return Unexpected{found.error()};
-  if (found->empty()) {
+  std::vector<std::string> found;
+  // Checks of properties are many: digits that fit one sweep name it, whatever else they fit.
+  for (const char* kinds : {kComparable, "true"}) {
+    auto select = Statement::prepare(
+        database.connection(),
+        fmt::format("SELECT uuid FROM run WHERE uuid LIKE ? || '%' AND {} ORDER BY uuid LIMIT 2", kinds),
+        kListing);
+    if (!select) return Unexpected{select.error()};
+    select->bind(text);
+    auto uuids = collect<std::string>(*select, [](const Statement& row) { return row.text(0); });
+    if (!uuids) return Unexpected{uuids.error()};
+    found = std::move(*uuids);
+    if (!found.empty()) break;
+  }
+  if (found.empty()) {
     return Unexpected{
         Error{ErrorKind::kNotFound,
               fmt::format("{}: no run {}, expected one that `sipplab runs` lists", file, text)}};
   }
-  if (found->size() > 1) {
+  if (found.size() > 1) {
     return Unexpected{Error{ErrorKind::kBadInput,
                             fmt::format("{}: {} fits more than one run, expected more digits", file, text)}};
   }
-  return found->front();
+  return found.front();
 }
 
 Result<std::optional<std::string>> run_before(Database& database, const std::string& uuid) {
   auto select =
       Statement::prepare(database.connection(),
-                         "SELECT other.uuid FROM run JOIN run AS other ON other.suite = run.suite AND "
-                         "other.excluded_reason IS NULL "
+                         "SELECT other.uuid FROM run JOIN run AS other ON other.kind = run.kind AND "
+                         "other.suite = run.suite AND other.excluded_reason IS NULL "
                          "AND (other.started_utc, other.id) < (run.started_utc, run.id) "
                          "WHERE run.uuid = ? ORDER BY other.started_utc DESC, other.id DESC LIMIT 1",
                          "looking for the run before");
@@ -197,14 +182,16 @@ Result<RunReport> show_run(Database& database, std::string_view run) {
   const auto uuid = resolve_run(database, run);
   if (!uuid) return Unexpected{uuid.error()};
   auto select =
-      Statement::prepare(database.connection(), std::string{kRunColumns} + "WHERE run = ?", "reading a run");
+      Statement::prepare(database.connection(), std::string{kSelectRuns} + "WHERE run = ?", "reading a run");
   if (!select) return Unexpected{select.error()};
   select->bind(*uuid);
   const auto runs = collect(*select, read_run);
   if (!runs) return Unexpected{runs.error()};
   auto cells = cells_of(database, *uuid);
   if (!cells) return Unexpected{cells.error()};
-  return RunReport{runs->front(), std::move(*cells)};
+  auto details = details_of(database, runs->front());
+  if (!details) return Unexpected{details.error()};
+  return RunReport{runs->front(), std::move(*cells), std::move(*details)};
 }
 
 Result<Done> exclude_run(Database& database, std::string_view run, const std::string& reason) {

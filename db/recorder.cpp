@@ -30,24 +30,6 @@ bool has_nan(const ResultRow& row) {
          is_nan(row.ssi_kept_s);
 }
 
-Result<Done> insert_run(Database& database, const RunInfo& info, const std::string& uuid) {
-  auto& connection = database.connection();
-  const auto keys = origin_keys(connection, info.commit, info.machine, info.build);
-  if (!keys) return Unexpected{keys.error()};
-  auto insert = Statement::prepare(
-      connection,
-      "INSERT INTO run (uuid, suite, started_utc, status, commit_id, machine_id, build_id, branch, "
-      "command_line, "
-      "options, seed, time_limit_s, writer, shard) VALUES (?, ?, ?, 'running', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-      "writing the run");
-  if (!insert) return Unexpected{insert.error()};
-  return insert
-      ->bind(uuid, info.suite, utc_now(), keys->commit, keys->machine, keys->build, info.branch,
-             info.command_line, info.options, to_bits(info.seed), info.time_limit_s, this_process(),
-             info.shard)
-      .run();
-}
-
 }  // namespace
 
 Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info) {
@@ -56,7 +38,8 @@ Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const
       "SELECT run.uuid, run.started_utc, run.status, run.writer, "
       "  (SELECT count(*) FROM cell WHERE cell.run_id = run.id) "
       "FROM run JOIN machine ON machine.id = run.machine_id JOIN build ON build.id = run.build_id "
-      "WHERE run.suite = ? AND run.options = ? AND run.status <> 'finished' AND run.excluded_reason IS NULL "
+      "WHERE run.kind = 'sweep' AND run.suite = ? AND run.options = ? "
+      "  AND run.status <> 'finished' AND run.excluded_reason IS NULL "
       "  AND run.origin = '' AND machine.fingerprint = ? "
       "  AND build.binary_hash = ? AND build.compiler = ? AND build.compiler_version = ? AND build.flags = ? "
       "  AND build.build_type = ? AND build.assertions = ? AND build.sanitizers = ? AND build.dirty = ? "
@@ -106,11 +89,21 @@ RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t r
 Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
   auto transaction = Transaction::begin(database.connection());
   if (!transaction) return Unexpected{transaction.error()};
-  const std::string uuid = new_uuid();
-  if (auto done = insert_run(database, info, uuid); !done) return Unexpected{done.error()};
-  const std::int64_t id = database.connection().last_insert_rowid();
+  RunRow run;
+  run.uuid = new_uuid();
+  run.kind = "sweep";
+  run.suite = info.suite;
+  run.started_utc = utc_now();
+  run.seed = info.seed;
+  run.time_limit_s = info.time_limit_s;
+  run.shard = info.shard;
+  run.command_line = info.command_line;
+  run.options = info.options;
+  run.writer = this_process();
+  const auto id = insert_run(database.connection(), info, run);
+  if (!id) return Unexpected{id.error()};
   if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
-  return RunRecorder{std::move(database), uuid, id};
+  return RunRecorder{std::move(database), run.uuid, **id};
 }
 
 Result<RunRecorder> RunRecorder::resume(Database database, const std::string& run_uuid) {

@@ -6,7 +6,7 @@
 namespace sipplab::db {
 
 std::string fingerprint(const MachineInfo& machine) {
-  // FNV-1a, 64 bits: the fields are few and nobody attacks them. The separator keeps
+  // FNV-1a, 64 bits: the fields are few and no attacker chooses them. The separator keeps
   // neighbouring fields apart.
   constexpr std::uint64_t kOffsetBasis = 14695981039346656037ULL;
   constexpr std::uint64_t kPrime = 1099511628211ULL;

@@ -23,10 +23,10 @@ struct CommitInfo {
   std::string committed_utc;  ///< "2026-01-31T12:00:00Z"
   std::string subject;
   std::string first_parent;  ///< hash; empty for a root commit
-  /// `git rev-list --count HASH`, the commit itself included; 0 where it is not
+  /// `git rev-list --count HASH`, the commit itself included; 0 if it is not
   /// known (shallow clone).
   std::int64_t ancestor_count = 0;
-  /// `git rev-list --count --first-parent HASH`; 0 where it is not known.
+  /// `git rev-list --count --first-parent HASH`; 0 if it is not known.
   std::int64_t first_parent_count = 0;
   std::vector<std::string> later_parents = {};  ///< hashes, of a merge: the parents after the first
 };
@@ -54,11 +54,18 @@ struct BuildInfo {
   bool dirty = false;       ///< built from a tree with uncommitted changes
 };
 
+/// Where something comes from that is recorded.
+struct RunOrigin {
+  std::optional<CommitInfo> commit;  ///< none outside a checkout
+  std::string branch;                ///< as checked out; empty if there is none
+  MachineInfo machine;
+  BuildInfo build;
+};
+
 /// One start of a sweep.
-struct RunInfo {
+struct RunInfo : RunOrigin {
   std::string suite;
-  std::string shard;   ///< "2/8": the second of eight parts of the suite; empty for all of it
-  std::string branch;  ///< as checked out; empty where there is none
+  std::string shard;  ///< "2/8": the second of eight parts of the suite; empty for all of it
   std::string command_line;
   /// What must agree, besides suite, build and machine, for a run to be resumed:
   /// a canonical text of the options that change results, such as
@@ -66,9 +73,6 @@ struct RunInfo {
   std::string options;
   std::uint64_t seed = 0;
   double time_limit_s = kNoTimeLimit;  ///< wall clock, per instance
-  std::optional<CommitInfo> commit;    ///< none outside a checkout
-  MachineInfo machine;
-  BuildInfo build;
 };
 
 /// The parameters of a benchmark case: all of them, so that two cases are the same
@@ -138,7 +142,7 @@ struct ResultRow {
   std::uint64_t expansions = 0;
   std::uint64_t generations = 0;
   std::optional<std::uint64_t> plan_hash;
-  /// The validator's verdict; none where there was no plan to check.
+  /// The validator's verdict; none if there was no plan to check.
   std::optional<bool> valid;
   std::int64_t violations = 0;
   std::optional<double> min_clearance_cells;  ///< may be infinite (one robot)

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "db/aligned.hpp"
+#include "db/columns.hpp"
 #include "db/queries.hpp"
 
 namespace sipplab::db {
@@ -41,95 +42,28 @@ std::string duration(const std::optional<double>& seconds) {
 
 std::string ssi_text(double ssi_s) { return std::isinf(ssi_s) ? "inf" : fmt::format("{}", ssi_s); }
 
-Value optional_value(const std::optional<double>& value) { return value ? Value{*value} : Value{Null{}}; }
-Value optional_value(const std::optional<std::string>& value) {
-  return value ? Value{*value} : Value{Null{}};
-}
-Value flag(bool value) { return std::int64_t{value ? 1 : 0}; }
-
-Table exact(const std::vector<RunSummary>& runs) {
-  Table table{{"run", "suite", "status", "started_utc", "ended_utc", "commit_hash", "commit_subject",
-               "branch", "dirty", "host", "cpu_model", "compiler", "build_type", "command_line", "cases",
-               "results", "solved", "invalid", "excluded_reason"},
-              {}};
-  for (const RunSummary& run : runs) {
-    table.rows.push_back({run.uuid, run.suite, run.status, run.started_utc, optional_value(run.ended_utc),
-                          optional_value(run.commit_hash), optional_value(run.commit_subject), run.branch,
-                          flag(run.dirty), run.host, run.cpu_model, run.compiler, run.build_type,
-                          run.command_line, run.cases, run.results, run.solved, run.invalid,
-                          optional_value(run.excluded_reason)});
-  }
-  return table;
-}
-
-Table exact(const std::vector<CellSummary>& cells) {
-  Table table{{"environment",
-               "robots",
-               "ssi_s",
-               "reschedule",
-               "initial_order",
-               "planner",
-               "any_angle",
-               "connectedness",
-               "results",
-               "solved",
-               "limited",
-               "invalid",
-               "success_rate",
-               "mean_planning_time_s",
-               "median_planning_time_s",
-               "mean_makespan_s",
-               "median_makespan_s",
-               "mean_flowtime_s",
-               "median_flowtime_s",
-               "mean_tries",
-               "mean_expansions"},
-              {}};
-  for (const CellSummary& cell : cells) {
-    table.rows.push_back({cell.environment,
-                          cell.robots,
-                          cell.ssi_s,
-                          cell.reschedule,
-                          cell.order,
-                          cell.planner,
-                          flag(cell.any_angle),
-                          cell.connectedness,
-                          cell.results,
-                          cell.solved,
-                          cell.limited,
-                          cell.invalid,
-                          optional_value(cell.success_rate),
-                          optional_value(cell.mean_planning_time_s),
-                          optional_value(cell.median_planning_time_s),
-                          optional_value(cell.mean_makespan_s),
-                          optional_value(cell.median_makespan_s),
-                          optional_value(cell.mean_flowtime_s),
-                          optional_value(cell.median_flowtime_s),
-                          optional_value(cell.mean_tries),
-                          optional_value(cell.mean_expansions)});
-  }
-  return table;
-}
-
 std::string commit_text(const RunSummary& run) {
   if (!run.commit_hash) return "-";
   return brief(*run.commit_hash) + (run.dirty ? "+" : "");
 }
 
-std::string state_text(const RunSummary& run) { return run.excluded_reason ? "excluded" : run.status; }
+std::string state_text(const RunSummary& run) {
+  if (run.excluded_reason) return "excluded";
+  return run.outcome.empty() ? run.status : run.outcome;
+}
 
 Table rounded_runs(const std::vector<RunSummary>& runs) {
-  Table table{
-      {"run", "started (UTC)", "suite", "status", "commit", "branch", "host", "cases", "results", "solved"},
-      {}};
+  Table table{{"run", "started (UTC)", "kind", "suite", "status", "commit", "branch", "host", "cases",
+               "results", "solved"},
+              {}};
   for (const RunSummary& run : runs) {
-    table.rows.push_back({brief(run.uuid), to_seconds(run.started_utc), run.suite, state_text(run),
+    table.rows.push_back({brief(run.uuid), to_seconds(run.started_utc), run.kind, run.suite, state_text(run),
                           commit_text(run), run.branch, run.host, run.cases, run.results, run.solved});
   }
   return table;
 }
 
-/// Rounded numbers are text by now, and stand to the right all the same.
+/// Rounded numbers are text here, and are aligned to the right like numbers.
 std::string format_cells(const std::vector<CellSummary>& cells) {
   struct Column {
     const char* heading;
@@ -161,7 +95,8 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
 
 std::string describe(const RunSummary& run) {
   std::string text = fmt::format("run       {}\n", run.uuid);
-  text += fmt::format("suite     {}, {}\n", run.suite, run.status);
+  text += fmt::format("{:<9} {}, {}\n", run.kind == "sweep" ? "suite" : run.kind, run.suite,
+                      run.outcome.empty() ? run.status : run.outcome);
   text += fmt::format("started   {} UTC", to_seconds(run.started_utc));
   text += run.ended_utc ? fmt::format(", ended {} UTC\n", to_seconds(*run.ended_utc)) : "\n";
   if (run.commit_hash) {
@@ -171,9 +106,11 @@ std::string describe(const RunSummary& run) {
   }
   text += fmt::format("machine   {}, {}\n", run.host, run.cpu_model);
   text += fmt::format("build     {}, {}\n", run.compiler, run.build_type);
-  text += fmt::format("command   {}\n", run.command_line);
-  text += fmt::format("results   {} in {} cases, {} solved, {} invalid\n", run.results, run.cases, run.solved,
-                      run.invalid);
+  if (!run.command_line.empty()) text += fmt::format("command   {}\n", run.command_line);
+  if (run.kind == "sweep") {
+    text += fmt::format("results   {} in {} cases, {} solved, {} invalid\n", run.results, run.cases,
+                        run.solved, run.invalid);
+  }
   if (run.excluded_reason) text += fmt::format("excluded  {}\n", *run.excluded_reason);
   return text;
 }
@@ -181,22 +118,25 @@ std::string describe(const RunSummary& run) {
 }  // namespace
 
 std::string format_runs(const std::vector<RunSummary>& runs, OutputFormat format) {
-  if (format != OutputFormat::kTable) return db::format(exact(runs), format);
+  if (format != OutputFormat::kTable) return db::format(table_of(runs), format);
   if (runs.empty()) return "no runs\n";
   return format_aligned(rounded_runs(runs));
 }
 
 std::string format_run_report(const RunReport& report, OutputFormat format) {
+  const bool sweep = report.run.kind == "sweep";
   switch (format) {
-    case OutputFormat::kTable:
-      return describe(report.run) + '\n' +
-             (report.cells.empty() ? "no finished case\n" : format_cells(report.cells));
+    case OutputFormat::kTable: {
+      const std::string cells = report.cells.empty() ? "no finished case\n" : format_cells(report.cells);
+      return describe(report.run) + '\n' + (sweep ? cells : format_aligned(report.details));
+    }
     case OutputFormat::kCsv:
-      return format_csv(exact(report.cells));
+      return format_csv(sweep ? table_of(report.cells) : report.details);
     case OutputFormat::kJson: {
       Json document;
-      document["run"] = Json::parse(format_json(exact(std::vector{report.run}))).front();
-      document["cells"] = Json::parse(format_json(exact(report.cells)));
+      document["run"] = Json::parse(format_json(table_of(std::vector{report.run}))).front();
+      document[sweep ? "cells" : "details"] =
+          Json::parse(format_json(sweep ? table_of(report.cells) : report.details));
       return document.dump(2) + '\n';
     }
   }

@@ -1,6 +1,8 @@
 // Insert a row or find it: one statement each, which ends in the row's key.
 #include "db/rows.hpp"
 
+#include <sqlite3.h>
+
 #include <algorithm>
 
 namespace sipplab::db {
@@ -27,10 +29,36 @@ std::optional<std::string> null_if_empty(const std::string& text) {
   return text;
 }
 
-Value value_of(const sqlite::Statement& row, int column, bool real) {
-  if (row.is_null(column)) return Null{};
-  if (real) return row.real(column);
-  return row.integer(column);
+Value value_of(sqlite3_stmt* row, int column) {
+  const auto bytes = [&](const void* data) {
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, column));
+    return data == nullptr ? std::string{} : std::string{static_cast<const char*>(data), size};
+  };
+  switch (sqlite3_column_type(row, column)) {
+    case SQLITE_INTEGER:
+      return static_cast<std::int64_t>(sqlite3_column_int64(row, column));
+    case SQLITE_FLOAT:
+      return sqlite3_column_double(row, column);
+    case SQLITE_TEXT:
+      return bytes(sqlite3_column_text(row, column));
+    case SQLITE_BLOB:
+      return Blob{bytes(sqlite3_column_blob(row, column))};
+    default:
+      return Null{};
+  }
+}
+
+Result<Table> rest_of(sqlite::Statement& statement) {
+  Table table;
+  const int count = sqlite3_column_count(statement.raw());
+  for (int i = 0; i < count; ++i) table.columns.emplace_back(sqlite3_column_name(statement.raw(), i));
+  for (;;) {
+    const auto row = statement.step();
+    if (!row) return Unexpected{row.error()};
+    if (!row.value()) return table;
+    std::vector<Value>& values = table.rows.emplace_back();
+    for (int i = 0; i < count; ++i) values.push_back(value_of(statement.raw(), i));
+  }
 }
 
 std::int64_t to_count(std::uint64_t value) {
@@ -40,7 +68,7 @@ std::int64_t to_count(std::uint64_t value) {
 std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
 Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit) {
-  // A shallow clone does not know the counts; whoever knows them fills them in.
+  // A shallow clone does not know the counts; a full one fills them in.
   const auto id =
       upsert(connection,
              "INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, "
@@ -91,15 +119,30 @@ Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
   return std::optional<std::int64_t>{*id};
 }
 
-Result<OriginKeys> origin_keys(sqlite::Connection& connection, const std::optional<CommitInfo>& commit,
-                               const MachineInfo& machine, const BuildInfo& build) {
-  const auto commit_key = commit_id(connection, commit);
-  if (!commit_key) return Unexpected{commit_key.error()};
-  const auto machine_key = machine_id(connection, machine);
-  if (!machine_key) return Unexpected{machine_key.error()};
-  const auto build_key = build_id(connection, build);
-  if (!build_key) return Unexpected{build_key.error()};
-  return OriginKeys{*commit_key, *machine_key, *build_key};
+Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
+                                               const RunRow& run) {
+  const auto commit = commit_id(connection, origin.commit);
+  if (!commit) return Unexpected{commit.error()};
+  const auto machine = machine_id(connection, origin.machine);
+  if (!machine) return Unexpected{machine.error()};
+  const auto build = build_id(connection, origin.build);
+  if (!build) return Unexpected{build.error()};
+  auto insert = sqlite::Statement::prepare(
+      connection,
+      "INSERT INTO run (uuid, kind, suite, started_utc, outcome, commit_id, machine_id, build_id, branch, "
+      "command_line, options, seed, time_limit_s, writer, shard, status, ended_utc) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, "
+      "iif(?16 IS NULL, 'running', 'finished'), iif(?16 IS NULL, NULL, ifnull("
+      "strftime('%Y-%m-%dT%H:%M:%fZ', ?4, printf('+%.3f seconds', ?16 / 1e9)), ?4))) "
+      "ON CONFLICT (uuid) DO NOTHING",
+      "listing a run");
+  if (!insert) return Unexpected{insert.error()};
+  insert->bind(run.uuid, run.kind, run.suite, run.started_utc, run.outcome, *commit, *machine, *build,
+               origin.branch, run.command_line, run.options, to_bits(run.seed), run.time_limit_s, run.writer,
+               run.shard, run.wall_time_ns);
+  if (auto done = insert->run(); !done) return Unexpected{done.error()};
+  if (connection.changes() == 0) return std::optional<std::int64_t>{};
+  return std::optional<std::int64_t>{connection.last_insert_rowid()};
 }
 
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "db/columns.hpp"
 #include "db/error.hpp"
 #include "db/records.hpp"
 #include "db/sqlite/connection.hpp"
@@ -20,10 +21,14 @@ namespace sipplab::db {
 std::int64_t to_count(std::uint64_t value);
 std::int64_t to_bits(std::uint64_t value);
 
-/// An empty text is absent.
-std::optional<std::string> null_if_empty(const std::string& text);
-/// A number that may be absent.
-Value value_of(const sqlite::Statement& row, int column, bool real);
+/// LIMIT of SQL: 0 sets none.
+inline std::int64_t sql_limit(std::size_t limit) {
+  return limit == 0 ? -1 : static_cast<std::int64_t>(limit);
+}
+/// The value of a column in the current row.
+Value value_of(sqlite3_stmt* row, int column);
+/// All rows that are left, under the names of their columns.
+Result<Table> rest_of(sqlite::Statement& statement);
 
 /// The key of the row, which is written if it is missing. To be called within a
 /// write transaction.
@@ -34,14 +39,41 @@ Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
                                               const std::optional<CommitInfo>& commit);
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters);
 
-/// Where something that is recorded comes from.
-struct OriginKeys {
-  std::optional<std::int64_t> commit;  ///< none outside a checkout
-  std::int64_t machine = 0;
-  std::int64_t build = 0;
+/// What all runs have, whatever their kind: the columns of the table run.
+struct RunRow {
+  std::string uuid;
+  std::string kind;   ///< "sweep", "report", "property", "fuzz", "gate"
+  std::string suite;  ///< what ran: a suite, the folder of a property, the target of fuzzing
+  std::string started_utc;
+  std::optional<std::int64_t> wall_time_ns;  ///< none: it is still running
+  std::string outcome;                       ///< of a kind that has results, not cases
+  std::uint64_t seed = 0;
+  // Of sweeps.
+  double time_limit_s = kNoTimeLimit;
+  std::string shard;
+  std::string command_line;
+  std::string options;
+  std::string writer;
 };
-Result<OriginKeys> origin_keys(sqlite::Connection& connection, const std::optional<CommitInfo>& commit,
-                               const MachineInfo& machine, const BuildInfo& build);
+
+/// The row of a run that is over, of a kind whose struct has the same names.
+template <class Run>
+RunRow finished_run(const char* kind, const std::string& suite, const std::string& outcome, const Run& run) {
+  RunRow row;
+  row.uuid = run.uuid;
+  row.kind = kind;
+  row.suite = suite;
+  row.started_utc = run.started_utc;
+  row.wall_time_ns = run.wall_time_ns;
+  row.outcome = outcome;
+  row.seed = run.seed;
+  return row;
+}
+
+/// Lists a run; gives its key. None where the history has one of that UUID: nothing is written then. To
+/// be called within a write transaction, as the rows of its kind are.
+Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
+                                               const RunRow& run);
 
 /// The same for instances, of which a case has hundreds: the statements are prepared
 /// once, and an instance that is known costs no write.

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "db/queries.hpp"
+#include "db/rows.hpp"
 #include "db/sqlite/handle.hpp"
 #include "db/statistics/sqlite_functions.hpp"
 
@@ -120,25 +121,6 @@ bool has_statement(sqlite3* db, const char* text) {
   return false;
 }
 
-Value column_value(sqlite3_stmt* statement, int column) {
-  const auto bytes = [&](const void* data) {
-    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement, column));
-    return data == nullptr ? std::string{} : std::string{static_cast<const char*>(data), size};
-  };
-  switch (sqlite3_column_type(statement, column)) {
-    case SQLITE_INTEGER:
-      return static_cast<std::int64_t>(sqlite3_column_int64(statement, column));
-    case SQLITE_FLOAT:
-      return sqlite3_column_double(statement, column);
-    case SQLITE_TEXT:
-      return bytes(sqlite3_column_text(statement, column));
-    case SQLITE_BLOB:
-      return Blob{bytes(sqlite3_column_blob(statement, column))};
-    default:
-      return Null{};
-  }
-}
-
 Result<Table> read_rows(const sqlite::Handle& handle, sqlite3_stmt* statement) {
   Table table;
   const int count = sqlite3_column_count(statement);
@@ -151,7 +133,7 @@ Result<Table> read_rows(const sqlite::Handle& handle, sqlite3_stmt* statement) {
     if (code != SQLITE_ROW) return Unexpected{sqlite::describe(handle, code, "running the query")};
     std::vector<Value> row;
     row.reserve(table.columns.size());
-    for (int i = 0; i < count; ++i) row.push_back(column_value(statement, i));
+    for (int i = 0; i < count; ++i) row.push_back(value_of(statement, i));
     table.rows.push_back(std::move(row));
   }
 }

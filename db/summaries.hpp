@@ -16,7 +16,7 @@
 namespace sipplab::db {
 
 /// The medians of a cell; none without values. In SQL they take longer than all other columns
-/// together, and whoever writes the results has them at hand.
+/// together; the writer of the results computes them in passing.
 struct CellMedians {
   std::optional<double> planning_time_s;
   std::optional<double> makespan_s;  ///< of solved results, as the next

@@ -105,7 +105,7 @@ std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
 struct CaseName {
   std::int64_t id = 0;
   std::string label;
-  /// The other parameters, each as a few words: they go into the label where it would not be unique.
+  /// The other parameters, each as a few words: they go into the label if it would not be unique otherwise.
   std::array<std::string, 7> details;
 };
 
@@ -175,7 +175,7 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
 /// What samples of one series have in common.
 struct SeriesKey {
   std::string context;
-  std::string instances;  ///< their keys; empty where there are none
+  std::string instances;  ///< their keys; empty if there are none
 
   friend bool operator<(const SeriesKey& a, const SeriesKey& b) {
     return std::tie(a.context, a.instances) < std::tie(b.context, b.instances);
@@ -194,7 +194,7 @@ Result<SamplesByKey> read_samples(Statement& select) {
   }
 }
 
-/// Names for the sets of instances on which a case was planned: none where there is but one, else
+/// Names for the sets of instances on which a case was planned: none if there is only one, else
 /// "10 instances", and "10 instances, set 2" where several have as many.
 std::map<std::string, std::string> set_names(const SamplesByKey& samples) {
   std::map<std::string, std::string> names;
@@ -255,11 +255,9 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
 std::string commit_source(const TrendMetric& metric) {
   const auto properties = [](std::string_view value) {
     return fmt::format(
-        "SELECT 'all properties' AS context, commit_.hash AS commit_hash, commit_.subject AS commit_subject, "
-        "commit_.committed_utc AS committed_utc, commit_.ancestor_count AS ancestor_count, "
-        "min(property_run.started_utc) AS started_utc, 0 AS dirty, '' AS binary_hash, {} AS value "
-        "FROM property_run JOIN commit_ ON commit_.id = property_run.commit_id "
-        "WHERE property_run.mutant = '' GROUP BY commit_.id",
+        "SELECT 'all properties' AS context, commit_hash, commit_subject, committed_utc, ancestor_count, "
+        "min(started_utc) AS started_utc, 0 AS dirty, '' AS binary_hash, {} AS value FROM v_property_runs "
+        "WHERE mutant = '' AND excluded_reason IS NULL AND commit_hash IS NOT NULL GROUP BY commit_hash",
         value);
   };
   const auto fuzz_runs = [](std::string_view value) {
@@ -267,10 +265,10 @@ std::string commit_source(const TrendMetric& metric) {
         "SELECT target || ', ' || host AS context, v_fuzz_runs.commit_hash, v_fuzz_runs.commit_subject, "
         "commit_.committed_utc, v_fuzz_runs.ancestor_count, started_utc, dirty, target_hash AS binary_hash, "
         "{0} AS value FROM v_fuzz_runs LEFT JOIN commit_ ON commit_.hash = v_fuzz_runs.commit_hash "
-        "WHERE {0} IS NOT NULL",
+        "WHERE {0} IS NOT NULL AND excluded_reason IS NULL",
         value);
   };
-  if (metric.name == "property-cases") return properties("sum(property_run.cases)");
+  if (metric.name == "property-cases") return properties("sum(cases)");
   if (metric.name == "fuzz-speed") return fuzz_runs("executions_per_s");
   if (metric.name == "fuzz-edges") return fuzz_runs("edges");
   if (metric.name == "fuzz-coverage") {
@@ -291,7 +289,7 @@ std::string commit_source(const TrendMetric& metric) {
            "LEFT JOIN commit_ ON commit_.hash = v_measurements.commit_hash "
            "WHERE real_time_ns IS NOT NULL AND excluded_reason IS NULL";
   }
-  return properties("avg(property_run.status <> 'passed')");
+  return properties("avg(status <> 'passed')");
 }
 
 Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {

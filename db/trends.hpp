@@ -57,10 +57,10 @@ struct TrendQuery {
 /// What was measured of one version of the program: median of the runs at a commit. A build
 /// with uncommitted changes, or without a commit, is a version of its own.
 struct TrendPoint {
-  std::string commit;  ///< full hash; empty where there is none
+  std::string commit;  ///< full hash; empty if there is none
   bool dirty = false;
   std::string subject;
-  std::string committed_utc;  ///< or the start of the run where there is no commit
+  std::string committed_utc;  ///< or the start of the run if there is no commit
   std::string started_utc;    ///< of its first run
   std::int64_t ancestor_count =
       0;  ///< of the commit, by which points are in order; or that of those before it
@@ -98,7 +98,7 @@ struct ChangeRules {
 /// Fills in the changes of all series, judged together.
 void mark_changes(std::vector<TrendSeries>& series, const TrendMetric& metric, const ChangeRules& rules = {});
 
-/// after / before - 1, or after - before for rates. Infinite where a level of 0 is left.
+/// after / before - 1, or after - before for rates. Infinite if the level before is 0.
 double effect_of(const TrendChange& change, const TrendMetric& metric);
 
 }  // namespace sipplab::db

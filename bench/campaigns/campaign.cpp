@@ -47,7 +47,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 class TargetRun {
  public:
-  TargetRun(db::Database& database, const db::FuzzOrigin& origin, const CampaignOptions& options,
+  TargetRun(db::Database& database, const db::RunOrigin& origin, const CampaignOptions& options,
             const std::string& campaign, std::string target)
       : database_(database),
         origin_(origin),
@@ -226,7 +226,7 @@ class TargetRun {
   }
 
   db::Database& database_;
-  const db::FuzzOrigin& origin_;
+  const db::RunOrigin& origin_;
   const CampaignOptions& options_;
   fs::path folder_;
   TargetProgram program_;
@@ -251,11 +251,6 @@ void write_finding(const CampaignOptions& options, const db::StoredFinding& stor
 
 }  // namespace
 
-db::FuzzOrigin fuzz_origin() {
-  const SourceInfo source = source_info();
-  return {source.commit, source.branch, machine_info(), build_info(source)};
-}
-
 std::vector<std::string> targets_of(const CampaignOptions& options) {
   std::vector<std::string> targets;
   std::error_code error;
@@ -270,7 +265,7 @@ std::vector<std::string> targets_of(const CampaignOptions& options) {
   return targets;
 }
 
-db::Result<CampaignResult> run_campaign(db::Database& database, const db::FuzzOrigin& origin,
+db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOrigin& origin,
                                         const CampaignOptions& options,
                                         const std::function<void(const std::string&)>& tell) {
   CampaignResult result;

@@ -35,15 +35,12 @@ struct CampaignResult {
   bool broken = false;                      ///< a target did not run as it should
 };
 
-/// Commit, machine and build of this program.
-db::FuzzOrigin fuzz_origin();
-
 /// The targets below sources/corpus for which there is a program.
 std::vector<std::string> targets_of(const CampaignOptions& options);
 
 /// Runs all targets, one after another; rows are written after each. `tell` gets one line at
 /// a time, for a person.
-db::Result<CampaignResult> run_campaign(db::Database& database, const db::FuzzOrigin& origin,
+db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOrigin& origin,
                                         const CampaignOptions& options,
                                         const std::function<void(const std::string&)>& tell);
 

@@ -24,30 +24,30 @@ class Fields {
  public:
   explicit Fields(const Json& json) : json_(json) {}
 
-  std::string text(const char* key) {
+  void take(const char* key, std::string& text) {
     const auto field = json_.find(key);
-    if (field != json_.end() && field->is_string()) return field->get<std::string>();
-    complain(key, "a text");
-    return {};
+    const bool right = field != json_.end() && field->is_string();
+    if (right) text = field->get<std::string>();
+    require(right, key, "a text");
+  }
+  void take(const char* key, const db::MaybeEmpty<std::string>& text) { take(key, text.text); }
+
+  void take(const char* key, std::int64_t& count) {
+    const auto field = json_.find(key);
+    const bool right = field != json_.end() && is_count(*field);
+    if (right) count = field->get<std::int64_t>();
+    require(right, key, "a count");
   }
 
-  std::int64_t count(const char* key) {
-    const auto field = json_.find(key);
-    if (field != json_.end() && is_count(*field)) return field->get<std::int64_t>();
-    complain(key, "a count");
-    return 0;
+  void take(const char* key, std::optional<std::int64_t>& count) {
+    if (json_.contains(key)) take(key, count.emplace());
   }
 
-  std::optional<std::int64_t> optional_count(const char* key) {
-    if (!json_.contains(key)) return std::nullopt;
-    return count(key);
-  }
-
-  std::uint64_t seed(const char* key) {
+  void take(const char* key, std::uint64_t& seed) {
     const auto field = json_.find(key);
-    if (field != json_.end() && field->is_number_unsigned()) return field->get<std::uint64_t>();
-    complain(key, "a number of 64 bits without sign");
-    return 0;
+    const bool right = field != json_.end() && field->is_number_unsigned();
+    if (right) seed = field->get<std::uint64_t>();
+    require(right, key, "a number of 64 bits without sign");
   }
 
   std::map<std::string, std::int64_t> counts(const char* key) {
@@ -89,34 +89,19 @@ Expected<db::PropertyRun, std::string> parse_line(std::string_view line) {
   if (!json.is_object()) return Unexpected{std::string("not a property run, expected a JSON object")};
   Fields fields(json);
   db::PropertyRun run;
-  run.uuid = fields.text("uuid");
+  const auto take = [&fields](const char* key, auto&& value) { fields.take(key, value); };
+  db::PropertyRun::origin_columns(run, take);
+  db::PropertyRun::columns(run, take);
+  run.classes = fields.counts("classes");
   fields.require(run.uuid.size() == kUuidLength, "uuid", "36 characters");
-  run.started_utc = fields.text("started_utc");
-  run.room = fields.text("room");
-  run.title = fields.text("title");
   fields.require(!run.title.empty(), "title", "a sentence");
-  run.seed = fields.seed("seed");
-  run.max_success = fields.count("max_success");
-  run.status = fields.text("status");
   fields.require(
       run.status == kStarted || run.status == "passed" || run.status == "failed" || run.status == "gave_up",
       "status", "started, passed, failed or gave_up");
-  run.cases = fields.count("cases");
-  run.discards = fields.count("discards");
-  run.shrinks = fields.count("shrinks");
-  run.shrink_tries = fields.count("shrink_tries");
   fields.require(run.shrinks <= run.shrink_tries, "shrinks", "at most shrink_tries");
-  run.wall_time_ns = fields.count("wall_time_ns");
-  run.classes = fields.counts("classes");
-  run.message = fields.text("message");
   fields.require(run.status == kStarted || run.status == "passed" || !run.message.empty(), "message",
                  "a reason");
-  run.reproduce = fields.text("reproduce");
   fields.require((run.status == "failed") != run.reproduce.empty(), "reproduce", "it for failures alone");
-  run.counterexample = fields.text("counterexample");
-  run.plan_case = fields.text("plan_case");
-  run.case_robots = fields.optional_count("case_robots");
-  run.case_cells = fields.optional_count("case_cells");
   if (!fields.error().empty()) return Unexpected{fields.error()};
   return run;
 }

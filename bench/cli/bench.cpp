@@ -115,11 +115,7 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
                     command->memory_limit_mib, command->rounding);
   }
   info.seed = arguments.seed;
-  const bench::SourceInfo source = bench::source_info();
-  info.commit = source.commit;
-  info.branch = source.branch;
-  info.machine = bench::machine_info();
-  info.build = bench::build_info(source);
+  static_cast<db::RunOrigin&>(info) = bench::run_origin();
   return info;
 }
 

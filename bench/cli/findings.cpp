@@ -13,6 +13,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
+#include "bench/sweep/run_info.hpp"
 #include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
 #include "db/identity.hpp"
@@ -139,7 +140,7 @@ db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding&
   if (verdict.verdict == bench::TargetVerdict::kNotJudged)
     return Replayed{stored, "not run: its program is not there"};
   const bool breaks = verdict.verdict == bench::TargetVerdict::kBreaks;
-  const auto recorded = db::record_replay(database, bench::fuzz_origin(), stored.id, breaks, db::utc_now());
+  const auto recorded = db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now());
   if (!recorded) return Unexpected{recorded.error()};
   if (!breaks) return Replayed{*recorded, "holds by now"};
   if (verdict.signature() == stored.finding.signature()) return Replayed{*recorded, "still breaks"};

@@ -69,7 +69,7 @@ int run_campaign(FuzzArguments& arguments) {
   if (const auto problem = problem_of(campaign)) return fail(kBadUsage, "sipplab fuzz: " + *problem);
   auto database = db::Database::open(db::database_path(arguments.history.database));
   if (!database) return fail(database.error());
-  const auto result = bench::run_campaign(*database, bench::fuzz_origin(), campaign, diagnose);
+  const auto result = bench::run_campaign(*database, bench::run_origin(), campaign, diagnose);
   if (!result) return fail(result.error());
   for (const std::string& skipped : result->skipped) {
     diagnose(skipped + ": skipped, this very program was fuzzed before and nothing was found");

@@ -83,16 +83,9 @@ int run_totals(const PropertyArguments& arguments) {
 int run_record(const PropertyArguments& arguments) {
   const auto runs = read_log(arguments.log);
   if (!runs) return fail(kBadUsage, runs.error());
-  const bench::SourceInfo source = bench::source_info();
-  db::PropertyOrigin origin;
-  origin.commit = source.commit;
-  origin.branch = source.branch;
-  origin.machine = bench::machine_info();
-  origin.build = bench::build_info(source);
-  origin.mutant = arguments.mutant;
   auto database = db::Database::open(db::database_path(arguments.history.database));
   if (!database) return fail(database.error());
-  const auto recorded = db::record_property_runs(*database, origin, *runs);
+  const auto recorded = db::record_property_runs(*database, bench::run_origin(), *runs, arguments.mutant);
   if (!recorded) return fail(recorded.error());
   const bench::PropertyTotals totals = bench::totals_of(*runs);
   if (arguments.history.json) {

@@ -16,6 +16,7 @@ namespace {
 
 struct RunsArguments {
   HistoryFlags history;
+  std::optional<std::string> kind;
   std::optional<std::string> suite;
   std::size_t limit = 20;
   bool all = false;
@@ -47,6 +48,7 @@ int run_runs(const RunsArguments& arguments) {
   auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
   if (!database) return fail(database.error());
   db::RunFilter filter;
+  filter.kind = arguments.kind;
   filter.suite = arguments.suite;
   filter.limit = arguments.all ? 0 : arguments.limit;
   filter.include_excluded = arguments.all;
@@ -62,7 +64,9 @@ Command add_runs_command(CLI::App& program) {
   auto arguments = std::make_shared<RunsArguments>();
   CLI::App* command = program.add_subcommand("runs", "list the runs of the history, newest first");
   arguments->history.add_to(*command);
-  command->add_option("--suite", arguments->suite, "only runs of this suite");
+  command->add_option("--kind", arguments->kind, "runs of this kind; default: sweeps and imported reports")
+      ->check(CLI::IsMember({"sweep", "report", "property", "fuzz", "gate", "all"}));
+  command->add_option("--suite", arguments->suite, "only runs of this suite, room or target");
   command->add_option("--limit", arguments->limit, "newest runs shown")->capture_default_str();
   command->add_flag("--all", arguments->all, "all runs, excluded ones too");
   CLI::Option* exclude =

@@ -246,9 +246,9 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
   run.method = kGateMethod;
   run.machine = machine_info();
   run.base_build = result.base.build;
-  run.head_build = result.head.build;
+  run.build = result.head.build;
   run.base_commit = source_info(result.base.program).commit;
-  run.head_commit = source_info(result.head.program).commit;
+  run.commit = source_info(result.head.program).commit;
   run.seed = request.seed;
   run.pair_seconds = request.budget.seconds;
   run.tolerance = request.tolerance;

@@ -123,6 +123,11 @@ db::BuildInfo build_info(const SourceInfo& source) {
 
 std::string text_digest(std::string_view text) { return digest_text(XXH3_64bits(text.data(), text.size())); }
 
+db::RunOrigin run_origin() {
+  const SourceInfo source = source_info();
+  return {source.commit, source.branch, machine_info(), build_info(source)};
+}
+
 std::string unfit_for_timing() {
   std::string reasons;
   const auto add = [&reasons](const char* reason) {

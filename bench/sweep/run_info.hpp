@@ -29,6 +29,9 @@ db::MachineInfo machine_info();
 /// Compiler, flags and the hash of the program that runs.
 db::BuildInfo build_info(const SourceInfo& source);
 
+/// All of it for the program that runs.
+db::RunOrigin run_origin();
+
 /// What makes this build's times worthless ("assertions are on"); empty for a build to
 /// measure with.
 std::string unfit_for_timing();

@@ -65,9 +65,9 @@ expect_code 2 "$sipplab" fuzz run --programs programs --sources sources
 # Found, reduced to the least that breaks the claim, drawn.
 expect_code 1 "${run[@]}" --json
 python3 -m json.tool out >/dev/null 2>&1 || ! command -v python3 >/dev/null || fail 'no JSON document'
-expect_sql 'planted_bug|findings|1|559|1498' 'SELECT target, status, crashes, edges, features FROM fuzz_run WHERE crashes > 0'
-expect_sql 'quiet|clean' "SELECT target, status FROM fuzz_run WHERE target = 'quiet'"
-expect_sql '2' "SELECT count(*) FROM fuzz_snapshot JOIN fuzz_run ON id = fuzz_run_id WHERE target = 'quiet'"
+expect_sql 'planted_bug|findings|1|559|1498' 'SELECT target, status, crashes, edges, features FROM v_fuzz_runs WHERE crashes > 0'
+expect_sql 'quiet|clean' "SELECT target, status FROM v_fuzz_runs WHERE target = 'quiet'"
+expect_sql '2' "SELECT count(*) FROM fuzz_snapshot JOIN v_fuzz_runs ON id = fuzz_run_id WHERE target = 'quiet'"
 expect_sql 'new|claim|result is whole|2|1' 'SELECT state, kind, claim, robots, times_found FROM finding'
 expect_sql '1' 'SELECT cells <= 4 FROM finding'
 grep -q '<svg' work/findings/1.svg || fail 'no picture of the finding'
@@ -107,7 +107,7 @@ expect_code 0 "${run[@]}" --target quiet --skip-known
 grep -q 'skipped' err || fail 'a known program is not left out'
 printf '#!/bin/sh\nexit 1\n' >programs/quiet
 expect_code 3 "${run[@]}" --target quiet
-expect_sql 'broken' "SELECT status FROM fuzz_run WHERE target = 'quiet' ORDER BY id DESC LIMIT 1"
+expect_sql 'broken' "SELECT status FROM v_fuzz_runs WHERE target = 'quiet' ORDER BY id DESC LIMIT 1"
 
 # The machine slept, or was busy: an input that alone is quick was no slow one.
 mkdir sources/corpus/stalled
@@ -123,7 +123,7 @@ replay_stalled() { printf '#!/bin/sh\n%s\nexec "%s" "$@"\n' "$1" "$replay" >prog
 replay_stalled 'sleep 3'
 chmod +x programs/replay_stalled
 expect_code 0 "${run[@]}" --target stalled
-expect_sql 'clean|1' "SELECT status, timeouts FROM fuzz_run WHERE target = 'stalled'"
+expect_sql 'clean|1' "SELECT status, timeouts FROM v_fuzz_runs WHERE target = 'stalled'"
 expect_code 0 "${run[@]}" --target stalled --skip-known
 if grep -q 'skipped' err; then fail 'a program that was not fuzzed to the end is left out'; fi
 expect_sql '1' 'SELECT count(*) FROM finding'

@@ -79,7 +79,7 @@ equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'pla
 sweep=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --connectedness 2 --count 4 --db gate.db)
 expect 0 "${sweep[@]}"
 expect 0 "${sweep[@]}"
-runs=$(ask 'SELECT uuid FROM run ORDER BY id')
+runs=$(ask "SELECT uuid FROM run WHERE kind = 'sweep' ORDER BY id")
 base=$(head -n 1 <<<"$runs")
 head=$(tail -n 1 <<<"$runs")
 expect 0 compare "$base" latest --db gate.db

@@ -39,7 +39,7 @@ prints '10 recorded in history.db, 0 there already'
 runs 0 ./sipplab property record log --db history.db --json
 prints '"known": 10'
 equal "$(ask 'SELECT count(*) FROM property_run')" 10 "rows after recording twice"
-equal "$(ask 'SELECT group_concat(DISTINCT seed) FROM (SELECT seed FROM property_run ORDER BY seed)')" "7,8" "seeds"
+equal "$(ask 'SELECT group_concat(DISTINCT seed) FROM (SELECT seed FROM v_property_runs ORDER BY seed)')" "7,8" "seeds"
 equal "$(ask "SELECT cases, discards, shrinks FROM v_property_latest WHERE title = 'every number is odd or even'")" "1000|0|0" "a property that held"
 equal "$(ask "SELECT cases, discards > 0 FROM v_property_latest WHERE status = 'gave_up'")" "0|1" "a property that gave up"
 equal "$(ask "SELECT count(*) FROM v_property_classes WHERE class = 'even' AND share BETWEEN 0.4 AND 0.6")" 2 "shares of a class"
@@ -62,7 +62,7 @@ wait "$victim" 2>/dev/null || code=$?
 equal "$code" 137 'exit code of a program that is killed'
 runs 0 ./sipplab property record killed.log --db killed.db
 prints '1 crashed'
-equal "$(sqlite3 killed.db 'SELECT status, title, cases FROM property_run')" "crashed|every number is odd or even|0" "what was killed"
+equal "$(sqlite3 killed.db 'SELECT status, title, cases FROM v_property_runs')" "crashed|every number is odd or even|0" "what was killed"
 runs 0 ./sipplab property list --failed --db killed.db
 prints 'crashed'
 runs 0 ./sipplab property show 1 --db killed.db
@@ -71,7 +71,7 @@ runs 1 ./sipplab property totals killed.log
 sed 's/"started"/"passed"/; s/"cases":0/"cases":7/' killed.log >ended.log
 cat ended.log >>killed.log
 runs 0 ./sipplab property record killed.log --db killed.db
-equal "$(sqlite3 killed.db 'SELECT status, cases FROM property_run')" "passed|7" "what had only seemed to be killed"
+equal "$(sqlite3 killed.db 'SELECT status, cases FROM v_property_runs')" "passed|7" "what had only seemed to be killed"
 
 id=$(ask "SELECT id FROM v_property_latest WHERE title = 'a plan has one robot'")
 noted=$(ask "SELECT id FROM v_property_latest WHERE title = 'a plan in 8 neighbours has one robot'")

@@ -45,7 +45,7 @@ class Connection {
   /// sound, that a first statement outside a transaction stands alone.
   Result<Done> execute(const std::string& sql, std::string_view doing);
 
-  /// First column of the first row of a query; an error where there is no row.
+  /// First column of the first row of a query; an error if there is no row.
   Result<std::int64_t> query_int(const std::string& sql, std::string_view doing);
   Result<std::string> query_text(const std::string& sql, std::string_view doing);
 

@@ -13,7 +13,7 @@
 
 namespace sipplab::db::sqlite {
 
-/// Statements that nobody uses at the moment, kept because compiling one takes longer than
+/// Prepared statements that are not in use, kept because compiling one takes longer than
 /// running it. They are reset, so they hold no lock; SQLite compiles one again by itself
 /// when the schema changed.
 class IdleStatements {

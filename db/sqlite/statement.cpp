@@ -55,6 +55,14 @@ Result<Done> Statement::run() {
 // A reset repeats the error of the step before it, which was reported there.
 void Statement::reset() { sqlite3_reset(statement_.get()); }
 
+int Statement::column(std::string_view name) const {
+  const int count = sqlite3_column_count(statement_.get());
+  int column = 0;
+  while (column < count && name != sqlite3_column_name(statement_.get(), column)) ++column;
+  PLANNER_ASSERT(column < count);
+  return column;
+}
+
 bool Statement::is_null(int column) const {
   return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
 }
@@ -94,6 +102,11 @@ void Statement::bind_one(int index, std::string_view value) {
   // A null pointer would bind NULL.
   const char* bytes = value.data() == nullptr ? "" : value.data();
   sqlite3_bind_text64(statement_.get(), index, bytes, value.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+}
+
+void Statement::bind_one(int index, Bytes value) {
+  sqlite3_bind_blob64(statement_.get(), index, value.bytes.data() == nullptr ? "" : value.bytes.data(),
+                      value.bytes.size(), SQLITE_TRANSIENT);
 }
 
 void Statement::bind_one(int index, std::nullopt_t) { sqlite3_bind_null(statement_.get(), index); }

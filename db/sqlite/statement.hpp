@@ -15,6 +15,11 @@ struct sqlite3_stmt;
 
 namespace sipplab::db::sqlite {
 
+/// To be kept as a blob.
+struct Bytes {
+  std::string_view bytes;
+};
+
 /// Usage: bind, step until it says false, reset. Columns count from 0; a column is
 /// readable until the next step or reset.
 class Statement {
@@ -30,6 +35,11 @@ class Statement {
     (bind_one(++index, values), ...);
     return *this;
   }
+  /// Binds one value to parameter ?index.
+  template <class Value>
+  void bind_at(int index, const Value& value) {
+    bind_one(index, value);
+  }
 
   /// True when a row is there, false at the end.
   Result<bool> step();
@@ -37,6 +47,8 @@ class Statement {
   Result<Done> run();
   void reset();
 
+  /// The column of that name. REQUIRES: the statement has one.
+  int column(std::string_view name) const;
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;
@@ -61,6 +73,7 @@ class Statement {
   void bind_one(int index, std::string_view value);
   void bind_one(int index, const std::string& value) { bind_one(index, std::string_view{value}); }
   void bind_one(int index, const char* value) { bind_one(index, std::string_view{value}); }
+  void bind_one(int index, Bytes value);
   void bind_one(int index, std::nullopt_t);
   template <class T>
   void bind_one(int index, const std::optional<T>& value) {

@@ -20,7 +20,7 @@ struct ChangePointOptions {
 
 /// One place at which a segment was divided, or could not be.
 struct Division {
-  std::size_t position = 0;  ///< first point of the new level; 0 where none was found
+  std::size_t position = 0;  ///< first point of the new level; 0 if none was found
   double p_value = 1;
   bool accepted = false;  ///< p_value <= significance
 };

@@ -6,7 +6,7 @@
 //     par2(solved, time_s, limit_s)                    mean time, unsolved as 2 * limit
 //
 // Rows with a NULL argument are left out. No rows: NULL, but for mcnemar, which is 1
-// as long as there is a pair. A text or blob where a number belongs, a p outside
+// as long as there is a pair. A text or blob instead of a number, a p outside
 // [0, 1] or a geomean of something that is not > 0 is an error that says so.
 #pragma once
 

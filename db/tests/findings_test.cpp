@@ -12,10 +12,7 @@ namespace {
 using test::ask;
 using test::must;
 
-FuzzOrigin origin() {
-  const RunInfo info = test::sample_run();
-  return {info.commit, info.branch, info.machine, info.build};
-}
+RunOrigin origin() { return test::sample_run(); }
 
 FuzzRun run_of(const std::string& status, const std::string& hash = "0123456789abcdef") {
   static int number = 0;

@@ -12,14 +12,12 @@ using test::must;
 class GateRuns : public test::DatabaseTest {
  protected:
   static GateRun sample(bool calibration) {
-    const RunInfo info = test::sample_run();
     GateRun run;
+    static_cast<RunOrigin&>(run) = test::sample_run();
     run.calibration = calibration;
     run.suite = "gate";
     run.method = 1;
-    run.machine = info.machine;
-    run.base_build = run.head_build = info.build;
-    run.head_commit = info.commit;
+    run.base_build = run.build;
     run.seed = 0xffff'ffff'ffff'ffff;
     run.pair_seconds = 0.6;
     run.tolerance = 0.05;
@@ -96,6 +94,15 @@ TEST_F(GateRuns, noise_is_that_of_calibrations_of_the_same_kind) {
   other = kind_of(sample(true));
   other.method = 2;
   EXPECT_TRUE(must(gate_noise(database, other)).empty());
+}
+
+TEST_F(GateRuns, an_excluded_calibration_says_nothing) {
+  auto database = must(Database::open(file));
+  const std::string uuid = must(record_gate_run(database, sample(true)));
+  must(exclude_run(database, uuid, "the machine was busy"));
+  EXPECT_TRUE(must(gate_noise(database, kind_of(sample(true)))).empty());
+  must(include_run(database, uuid));
+  EXPECT_FALSE(must(gate_noise(database, kind_of(sample(true)))).empty());
 }
 
 }  // namespace

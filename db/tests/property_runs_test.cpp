@@ -1,10 +1,9 @@
-// Property runs: what is written is what is read; the newest counts; older histories
-// get the tables and keep their rows.
+// Property runs: what is written is what is read; the newest counts.
 #include "db/property_runs.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "db/migrate.hpp"
+#include "db/queries.hpp"
 #include "db/tests/support.hpp"
 
 namespace sipplab::db {
@@ -46,10 +45,8 @@ PropertyRun failed_run(int number, const std::string& title = "cells are square"
 class PropertyRuns : public test::DatabaseTest {
  protected:
   PropertyRecorded record(const std::vector<PropertyRun>& runs, const std::string& mutant = "") {
-    const RunInfo info = test::sample_run();
     auto database = must(Database::open(file));
-    return must(
-        record_property_runs(database, {info.commit, info.branch, info.machine, info.build, mutant}, runs));
+    return must(record_property_runs(database, test::sample_run(), runs, mutant));
   }
   Table list(const PropertyFilter& filter) {
     auto database = must(Database::open_read_only(file));
@@ -110,7 +107,7 @@ TEST_F(PropertyRuns, what_seemed_to_have_crashed_is_replaced_by_its_end) {
   EXPECT_EQ(record({crashed}).known, 1U);
   EXPECT_EQ(record({passed_run(1)}).added, 1U);
   EXPECT_EQ(record({crashed}).known, 1U);
-  EXPECT_EQ(ask(file, "SELECT status || cases FROM property_run"), "passed100");
+  EXPECT_EQ(ask(file, "SELECT status || cases FROM v_property_runs"), "passed100");
   EXPECT_EQ(ask(file, "SELECT count(*) FROM property_class"), "2");
   test::expect_sound(file);
 }
@@ -119,9 +116,7 @@ TEST_F(PropertyRuns, a_log_with_one_wrong_run_changes_nothing) {
   PropertyRun wrong = passed_run(2);
   wrong.status = "fine";
   auto database = must(Database::open(file));
-  const RunInfo info = test::sample_run();
-  EXPECT_FALSE(record_property_runs(database, {info.commit, info.branch, info.machine, info.build, ""},
-                                    {passed_run(1), wrong}));
+  EXPECT_FALSE(record_property_runs(database, test::sample_run(), {passed_run(1), wrong}));
   EXPECT_EQ(ask(file, "SELECT count(*) FROM property_run"), "0");
   EXPECT_EQ(ask(file, "SELECT count(*) FROM machine"), "0");
 }
@@ -157,6 +152,15 @@ TEST_F(PropertyRuns, the_latest_failure_is_none_of_a_planted_bug) {
   const auto missing = show_property_run(database, 77);
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("no property run 77"), std::string::npos);
+}
+
+TEST_F(PropertyRuns, an_excluded_run_counts_nowhere) {
+  record({passed_run(1), failed_run(2)});
+  auto database = must(Database::open(file));
+  must(exclude_run(database, failed_run(2).uuid, "the disk was full"));
+  EXPECT_EQ(list({}).rows.at(0)[5], Value{std::string{"passed"}});
+  EXPECT_FALSE(latest_property_failure(database));
+  EXPECT_EQ(ask(file, "SELECT runs || failed FROM v_property_totals"), "10");
 }
 
 TEST_F(PropertyRuns, classes_and_totals_are_views) {

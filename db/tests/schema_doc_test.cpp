@@ -17,7 +17,6 @@ class SchemaDocument : public test::DatabaseTest {
  protected:
   /// One that failed, so that every view of property runs has a row.
   void record_a_property_run() {
-    const RunInfo info = test::sample_run();
     PropertyRun run;
     run.uuid = "00000000-0000-4000-8000-000000000001";
     run.room = "grid";
@@ -28,14 +27,12 @@ class SchemaDocument : public test::DatabaseTest {
     run.cases = 2;
     run.classes = {{"dense", 1}};
     auto database = test::must(Database::open(file));
-    test::must(
-        record_property_runs(database, {info.commit, info.branch, info.machine, info.build, ""}, {run}));
+    test::must(record_property_runs(database, test::sample_run(), {run}));
   }
 
   /// A run, its coverage and what it found: every view of fuzzing has a row.
   void record_fuzzing() {
-    const RunInfo info = test::sample_run();
-    const FuzzOrigin origin{info.commit, info.branch, info.machine, info.build};
+    const RunOrigin origin = test::sample_run();
     FuzzRun run;
     run.uuid = run.campaign = "00000000-0000-4000-8000-000000000002";
     run.target = "reads_back";
@@ -52,11 +49,10 @@ class SchemaDocument : public test::DatabaseTest {
   }
 
   void record_a_gate_run() {
-    const RunInfo info = test::sample_run();
     GateRun run;
+    static_cast<RunOrigin&>(run) = test::sample_run();
     run.suite = "gate";
-    run.machine = info.machine;
-    run.base_build = run.head_build = info.build;
+    run.base_build = run.build;
     run.pair_seconds = 1;
     run.tolerance = 0.05;
     run.started_utc = "2026-01-31T12:00:00.000Z";

@@ -80,13 +80,13 @@ std::vector<Measured> measure(const Budget& budget) {
 /// with the kind "rate" and the interval beside it.
 std::string log_line(const Measured& measured, const Budget& budget) {
   const Rate& rate = measured.rate;
-  PropertyRecord record;
+  db::PropertyRun record;
   record.uuid = new_property_uuid();
   record.started_utc = utc_text(std::chrono::system_clock::now());
   record.room = "rates";
   record.title = rate.title;
   record.seed = budget.seed;
-  record.max_success = static_cast<int>(budget.cases);
+  record.max_success = static_cast<std::int64_t>(budget.cases);
   record.status = "passed";
   record.cases = rate.applicable();
   record.discards = rate.not_applicable;

@@ -57,7 +57,7 @@ std::string without_quotes(const std::string& tag) {
 /// Counts cases, classes and shrinks while rapidcheck works.
 class Tally : public rc::detail::TestListenerAdapter {
  public:
-  explicit Tally(PropertyRecord& record) : record_(record) {}
+  explicit Tally(db::PropertyRun& record) : record_(record) {}
 
   void onTestCaseFinished(const CaseDescription& description) override {
     if (description.result.type == CaseResult::Type::Discard) {
@@ -87,7 +87,7 @@ class Tally : public rc::detail::TestListenerAdapter {
     noted_case.reset();
   }
 
-  PropertyRecord& record_;
+  db::PropertyRun& record_;
   std::optional<PlanCase> failing_case_;
 };
 
@@ -127,7 +127,7 @@ std::string from_the_root(std::string text) {
   return text;
 }
 
-void describe_failure(const FailureResult& failure, const Tally& tally, PropertyRecord& record) {
+void describe_failure(const FailureResult& failure, const Tally& tally, db::PropertyRun& record) {
   record.status = "failed";
   record.message = from_the_root(failure.description);
   record.reproduce = reproduce_text(record.title, failure.reproduce);
@@ -136,8 +136,8 @@ void describe_failure(const FailureResult& failure, const Tally& tally, Property
   if (!plan_case) plan_case = drawn_case(failure.counterExample);
   if (!plan_case) return;
   record.plan_case = encode_case(*plan_case);
-  record.case_robots = plan_case->instance.agents.size();
-  record.case_cells = plan_case->instance.map.cell_count();
+  record.case_robots = static_cast<std::int64_t>(plan_case->instance.agents.size());
+  record.case_cells = static_cast<std::int64_t>(plan_case->instance.map.cell_count());
 }
 
 std::string percent(std::int64_t part, std::int64_t whole) {
@@ -146,7 +146,7 @@ std::string percent(std::int64_t part, std::int64_t whole) {
   return text;
 }
 
-void print_summary(const PropertyRecord& record) {
+void print_summary(const db::PropertyRun& record) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", static_cast<double>(record.wall_time_ns) * 1e-9);
   std::cerr << record.status << ": " << record.cases << " cases, " << record.discards << " discarded, "
@@ -163,7 +163,7 @@ void print_summary(const PropertyRecord& record) {
 }
 
 /// Appends the record to the log, where there is one. False where that fails.
-bool log(const PropertyRecord& record) {
+bool log(const db::PropertyRun& record) {
   const char* path = std::getenv("SIPPLAB_PROPERTY_LOG");
   if (path == nullptr || *path == '\0') return true;
   const auto error = append_to_log(path, record);
@@ -213,7 +213,7 @@ bool run_property(const std::string& room, int cases, const std::string& title,
   std::cerr << "\n- " << title << '\n';
   if (!configuration.reproduce.empty()) return reproduce_failure(property, reproduce->second);
 
-  PropertyRecord record;
+  db::PropertyRun record;
   record.uuid = new_property_uuid();
   record.started_utc = utc_text(std::chrono::system_clock::now());
   record.room = room;

@@ -39,33 +39,35 @@ std::string new_property_uuid() {
   return uuid;
 }
 
-std::string to_json_line(const PropertyRecord& record) {
-  nlohmann::ordered_json json;
-  json["uuid"] = record.uuid;
-  json["started_utc"] = record.started_utc;
-  json["room"] = record.room;
-  json["title"] = record.title;
-  json["seed"] = record.seed;
-  json["max_success"] = record.max_success;
-  json["status"] = record.status;
-  json["cases"] = record.cases;
-  json["discards"] = record.discards;
-  json["shrinks"] = record.shrinks;
-  json["shrink_tries"] = record.shrink_tries;
-  json["wall_time_ns"] = record.wall_time_ns;
-  json["classes"] = record.classes;
-  json["message"] = record.message;
-  json["reproduce"] = record.reproduce;
-  json["counterexample"] = record.counterexample;
-  json["plan_case"] = record.plan_case;
-  if (record.case_robots) json["case_robots"] = *record.case_robots;
-  if (record.case_cells) json["case_cells"] = *record.case_cells;
-  // What a property prints may be any bytes.
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+void put(Json& json, const char* name, const T& value) {
+  json[name] = value;
+}
+void put(Json& json, const char* name, const db::MaybeEmpty<const std::string>& value) {
+  json[name] = value.text;
+}
+void put(Json& json, const char* name, const std::optional<std::int64_t>& value) {
+  if (value) json[name] = *value;
 }
 
-std::optional<std::string> append_to_log(const std::string& path, const PropertyRecord& record) {
-  return append_to_log(path, to_json_line(record));
+}  // namespace
+
+std::string to_json_line(const db::PropertyRun& run) {
+  Json json;
+  const auto visit = [&json](const char* name, const auto& value) { put(json, name, value); };
+  db::PropertyRun::origin_columns(run, visit);
+  db::PropertyRun::columns(run, visit);
+  json["classes"] = run.classes;
+  // What a property prints may be any bytes.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> append_to_log(const std::string& path, const db::PropertyRun& run) {
+  return append_to_log(path, to_json_line(run));
 }
 
 std::optional<std::string> append_to_log(const std::string& path, const std::string& line) {
