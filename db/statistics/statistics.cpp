@@ -2,38 +2,17 @@
 #include "db/statistics/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace sipplab::db::statistics {
 namespace {
 
-/// 2^-n is a normal double up to here, with room to spare.
-constexpr std::uint64_t kCountedCoins = 1000;
-
-/// P(X <= k) of n fair coins, for k <= n / 2.
-double fair_coin_tail(std::uint64_t n, std::uint64_t k) {
-  const auto coins = static_cast<double>(n);
-  const auto heads = static_cast<double>(k);
-  double sum = 0;
-  if (n <= kCountedCoins) {
-    // Binomial coefficients one from the other: exact as long as they fit 53 bits.
-    double term = std::ldexp(1.0, -static_cast<int>(n));
-    for (double i = 0; i <= heads; ++i) {
-      sum += term;
-      term = term * (coins - i) / (i + 1);
-    }
-    return sum;
-  }
-  // The largest term in logarithms, and the smaller ones from it.
-  const double log_largest = std::lgamma(coins + 1) - std::lgamma(heads + 1) -
-                             std::lgamma(coins - heads + 1) - coins * std::log(2.0);
-  double ratio = 1;
-  for (double i = heads; i >= 0 && ratio > 0; --i) {
-    sum += ratio;
-    ratio *= i / (coins - i + 1);
-  }
-  return std::exp(log_largest) * sum;
-}
+/// In double alone: the same digits on machines whose long double is another type.
+using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using Binomial = boost::math::binomial_distribution<double, Policy>;
+using StudentsT = boost::math::students_t_distribution<double, Policy>;
 
 struct RankedDifferences {
   std::size_t count = 0;
@@ -124,7 +103,8 @@ std::optional<double> geometric_mean(const std::vector<double>& values) {
 std::optional<double> sign_test(std::uint64_t wins, std::uint64_t losses) {
   if (wins + losses == 0) return std::nullopt;
   if (wins == losses) return 1.0;
-  return std::min(1.0, 2 * fair_coin_tail(wins + losses, std::min(wins, losses)));
+  const Binomial fair_coins(static_cast<double>(wins + losses), 0.5);
+  return std::min(1.0, 2 * cdf(fair_coins, static_cast<double>(std::min(wins, losses))));
 }
 
 double mcnemar(std::uint64_t lost, std::uint64_t gained) { return sign_test(lost, gained).value_or(1.0); }
@@ -149,15 +129,7 @@ ConfidenceInterval wilson_interval(double held, double of) {
   return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
 }
 
-double t_quantile(double freedom) {
-  constexpr double z = 1.959964;
-  constexpr double z2 = z * z;
-  constexpr double first = z * (z2 + 1) / 4;
-  constexpr double second = z * ((5 * z2 + 16) * z2 + 3) / 96;
-  constexpr double third = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
-  constexpr double fourth = z * ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
-  return z + (first + (second + (third + fourth / freedom) / freedom) / freedom) / freedom;
-}
+double t_quantile(double freedom) { return boost::math::quantile(StudentsT(freedom), 0.975); }
 
 std::optional<double> par2(const std::vector<TimedResult>& results) {
   if (results.empty()) return std::nullopt;

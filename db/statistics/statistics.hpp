@@ -25,7 +25,7 @@ std::optional<double> geometric_mean(const std::vector<double>& values);
 std::optional<double> sign_test(std::uint64_t wins, std::uint64_t losses);
 
 /// McNemar's exact test: `lost` pairs were solved before only, `gained` after only;
-/// pairs that agree say nothing. 1 where none disagrees.
+/// pairs that agree say nothing. 1 if none disagrees.
 double mcnemar(std::uint64_t lost, std::uint64_t gained);
 
 /// Up to this many differences the distribution of ranks is counted out; beyond, it is
@@ -48,8 +48,7 @@ struct ConfidenceInterval {
 /// need not be whole then. REQUIRES: 0 <= held <= of.
 ConfidenceInterval wilson_interval(double held, double of);
 
-/// 97.5 % quantile of Student's t by the expansion of Fisher and Cornish (1960), to the fourth order; within
-/// 0.04 % from four degrees of freedom on. REQUIRES: freedom > 0.
+/// 97.5 % quantile of Student's t. REQUIRES: freedom > 0.
 double t_quantile(double freedom);
 
 /// One planning under a limit.

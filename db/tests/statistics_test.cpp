@@ -178,10 +178,26 @@ TEST(Extension, loads_into_a_plain_connection) {
   sqlite3_close(connection);
 }
 
+// From the closed forms of Abramowitz and Stegun (1964), 26.7.3 and 26.7.4, in fifty digits; the last
+// from 26.7.5.
 TEST(Statistics, t_quantiles_are_those_of_the_tables) {
-  const std::pair<double, double> table[] = {{4, 2.776445}, {5, 2.570582}, {9, 2.262157}, {59, 2.000995}};
+  const std::pair<double, double> table[] = {{1, 12.706204736174705}, {4, 2.7764451051977943},
+                                             {5, 2.5705818356363155}, {9, 2.2621571627982053},
+                                             {59, 2.000995378088268}, {1e6, 1.959966356814107}};
   for (const auto& [freedom, quantile] : table) {
-    EXPECT_NEAR(t_quantile(freedom), quantile, 0.0004 * quantile) << freedom;
+    EXPECT_NEAR(t_quantile(freedom), quantile, 1e-12 * quantile) << freedom;
+  }
+}
+
+TEST(Statistics, sign_tests_are_sums_of_binomial_coefficients) {  // in exact integers
+  struct Known {
+    std::uint64_t wins, losses;
+    double p;
+  };
+  for (const Known& known :
+       {Known{0, 5, 0.0625}, Known{700, 800, 0.010559255466711544}, Known{1600, 1400, 0.0002785639610392337},
+        Known{2450, 2550, 0.1614852223973769}, Known{49500, 50500, 0.0015823598788515956}}) {
+    EXPECT_NEAR(*sign_test(known.wins, known.losses), known.p, 1e-12 * known.p) << known.wins;
   }
 }
 
