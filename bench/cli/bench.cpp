@@ -15,10 +15,10 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
-#include "bench/sweep/interrupt.hpp"
 #include "bench/sweep/reporters.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/shard.hpp"
@@ -356,6 +356,11 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
 }
 
 }  // namespace
+
+std::string check_shard(const std::string& text) {
+  return bench::parse_shard(text) ? std::string()
+                                  : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
+}
 
 Command add_bench_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<BenchArguments>();

@@ -57,4 +57,7 @@ struct BenchArguments {
 /// Runs the sweep, records it, and reports. Returns the exit code.
 int run_bench(const BenchArguments& arguments, std::vector<std::string> benchmark_flags);
 
+/// "2/8".
+std::string check_shard(const std::string& text);
+
 }  // namespace sipplab::cli

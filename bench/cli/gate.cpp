@@ -18,7 +18,7 @@
 #include "bench/gate/report.hpp"
 #include "bench/gate/slowdown.hpp"
 #include "bench/gate/worker.hpp"
-#include "bench/sweep/interrupt.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/sweep/suites.hpp"
 #include "db/gate_runs.hpp"
 #include "planner/io/text.hpp"

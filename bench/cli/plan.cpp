@@ -14,7 +14,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "bench/sweep/interrupt.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/sweep/refined_plan.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/io/solution_io.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "bench/cli/console.hpp"
-#include "bench/sweep/shard.hpp"
 #include "planner/complete/complete_planner.hpp"
 #include "planner/io/text.hpp"
 
@@ -65,11 +64,6 @@ std::string check_improve(const std::string& text) {
   return parse_improve_budget(text)
              ? ""
              : expected(text, "seconds > 0, such as 30s, or iterations > 0, such as 500i");
-}
-
-std::string check_shard(const std::string& text) {
-  return bench::parse_shard(text) ? std::string()
-                                  : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
 }
 
 double parse_time_limit_s(std::string_view text) {

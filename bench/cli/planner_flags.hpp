@@ -99,8 +99,6 @@ CLI::Validator real_between(double low, double high);
 std::string check_objective(const std::string& text);
 /// "30", "30s": seconds > 0; "500i": iterations > 0.
 std::string check_improve(const std::string& text);
-/// "2/8".
-std::string check_shard(const std::string& text);
 
 /// REQUIRES: check_time_limit(text) is empty.
 double parse_time_limit_s(std::string_view text);

@@ -8,7 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include "db/database.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
@@ -140,13 +139,13 @@ std::string empty_value_error(const CLI::App& program) {
   return "";
 }
 
-std::string overwrite_error(const CLI::App& program) {
+std::string overwrite_error(const CLI::App& program, fs::path (*history)()) {
   std::vector<NamedFile> files;
   bool has_history = false;
   collect(program, files, has_history);
   const bool names_history =
       std::any_of(files.begin(), files.end(), [](const NamedFile& file) { return file.option == "--db"; });
-  if (has_history && !names_history) files.push_back({"the history", db::database_path({}), false});
+  if (has_history && !names_history && history != nullptr) files.push_back({"the history", history(), false});
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t k = 0; k < files.size(); ++k) {
       if (i == k || !files[i].written || !is_same_file(files[i], files[k])) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 
 namespace sipplab::cli {
@@ -19,7 +20,7 @@ std::string empty_value_error(const CLI::App& program);
 
 /// After parsing: one line where a file that would be written is another one that was named, be it read,
 /// written as well, or the history itself, which would be lost. Else empty.
-std::string overwrite_error(const CLI::App& program);
+std::string overwrite_error(const CLI::App& program, std::filesystem::path (*history)());
 
 /// After parsing: one line where a flag was given that changes nothing without another one, such as
 /// --objective where nothing is improved. Else empty.

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "bench/interrupt.hpp"
 #include "bench/judge/change.hpp"
-#include "bench/sweep/interrupt.hpp"
 
 namespace sipplab::bench {
 namespace {

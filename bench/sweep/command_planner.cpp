@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/interrupt.hpp"
 #include "bench/program.hpp"
-#include "bench/sweep/interrupt.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/text.hpp"

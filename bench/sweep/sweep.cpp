@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/sweep/interrupt.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 

@@ -1,4 +1,4 @@
-#include "bench/sweep/interrupt.hpp"
+#include "bench/interrupt.hpp"
 
 #include <signal.h>
 #include <unistd.h>

@@ -1,0 +1,23 @@
+// The command line, with the commands that the build has.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+
+namespace sipplab::cli {
+
+/// What stands beside planning, validating and generating, which need the planner alone.
+struct Laboratory {
+  /// Adds the commands that need the history or Google Benchmark.
+  std::vector<Command> (*add_commands)(CLI::App& program, const Invocation& invocation) = nullptr;
+  /// The history's file where no flag names it.
+  std::filesystem::path (*history)() = nullptr;
+};
+
+/// Parses the arguments and runs one command; gives the exit code.
+int run_program(int argc, char** argv, const Laboratory& laboratory = {});
+
+}  // namespace sipplab::cli
