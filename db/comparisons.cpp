@@ -49,13 +49,7 @@ Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where,
                          kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
-  std::vector<std::int64_t> ids;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return ids;
-    ids.push_back(select->integer(0));
-  }
+  return select->collect([](const Statement& row) { return row.integer(0); });
 }
 
 /// Hashes of commits with runs that count, at most two: the beginning may fit several.
@@ -70,13 +64,7 @@ Result<std::vector<std::string>> commits(Database& database, const char* where, 
       kReadingRuns);
   if (!select) return Unexpected{select.error()};
   select->bind(value);
-  std::vector<std::string> hashes;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return hashes;
-    hashes.push_back(select->text(0));
-  }
+  return select->collect([](const Statement& row) { return row.text(0); });
 }
 
 using Sides = std::vector<ComparisonSide>;
@@ -164,12 +152,10 @@ Result<std::map<std::int64_t, CellKey>> newest_cells(Database& database, const C
   std::map<std::int64_t, CellKey> cells;
   for (const std::int64_t run : side.run_ids) {
     select->bind(run);
-    for (;;) {
-      const auto row = select->step();
-      if (!row) return Unexpected{row.error()};
-      if (!row.value()) break;
+    const auto done = select->for_each([&] {
       cells[select->integer(0)] = {select->integer(1), select->text(2), select->text(3), select->text(4)};
-    }
+    });
+    if (!done) return Unexpected{done.error()};
     select->reset();
   }
   return cells;

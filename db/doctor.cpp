@@ -67,13 +67,7 @@ class Examination {
   Result<std::vector<std::string>> texts(const std::string& sql) {
     auto select = Statement::prepare(connection_, sql, kExamining);
     if (!select) return Unexpected{select.error()};
-    std::vector<std::string> rows;
-    for (;;) {
-      const auto row = select->step();
-      if (!row) return Unexpected{row.error()};
-      if (!row.value()) return rows;
-      rows.push_back(select->text(0));
-    }
+    return select->collect([](const Statement& row) { return row.text(0); });
   }
 
   Result<Done> integrity() {
@@ -95,12 +89,9 @@ class Examination {
         kExamining);
     if (!select) return Unexpected{select.error()};
     std::map<std::string, std::string> found;
-    for (;;) {
-      const auto row = select->step();
-      if (!row) return Unexpected{row.error()};
-      if (!row.value()) return found;
-      found[select->text(0)] = select->text(1);
-    }
+    const auto done = select->for_each([&] { found[select->text(0)] = select->text(1); });
+    if (!done) return Unexpected{done.error()};
+    return found;
   }
 
   Result<Done> schema() {
@@ -180,12 +171,10 @@ class Examination {
         kExamining);
     if (!select) return Unexpected{select.error()};
     std::vector<std::pair<std::string, std::string>> dead;
-    for (;;) {
-      const auto row = select->step();
-      if (!row) return Unexpected{row.error()};
-      if (!row.value()) break;
+    const auto read = select->for_each([&] {
       if (!is_alive(select->text(1))) dead.emplace_back(select->text(0), select->text(2));
-    }
+    });
+    if (!read) return read;
     for (const auto& [uuid, suite] : dead) {
       auto done = add_fixable(
           fmt::format("run {} of suite {} was killed", uuid.substr(0, kShortUuid), suite),

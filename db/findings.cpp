@@ -146,13 +146,7 @@ Result<std::vector<StoredFinding>> list_findings(Database& database, bool open_o
                                    kReadingFindings);
   if (!select) return Unexpected{select.error()};
   select->bind(open_only);
-  std::vector<StoredFinding> findings;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return findings;
-    findings.push_back(read_finding(*select));
-  }
+  return select->collect(read_finding);
 }
 
 Result<StoredFinding> find_finding(Database& database, std::int64_t id) {

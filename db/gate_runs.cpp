@@ -137,17 +137,16 @@ Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& ki
   select->bind(fingerprint(kind.machine), kind.suite, kind.method, kind.pair_seconds, kNewest);
   std::vector<GateNoise> noise;
   std::optional<std::int64_t> cell;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return noise;
+  const auto done = select->for_each([&] {
     std::optional<CaseInfo> parameters;
     if (!select->is_null(1)) parameters = read_case(*select, 3);
     if (noise.empty() || noise.back().parameters != parameters) noise.push_back({parameters, {}});
     if (cell != select->integer(0)) noise.back().comparisons.emplace_back();
     cell = select->integer(0);
     noise.back().comparisons.back().push_back(select->real(2));
-  }
+  });
+  if (!done) return Unexpected{done.error()};
+  return noise;
 }
 
 }  // namespace sipplab::db

@@ -38,14 +38,11 @@ Result<std::vector<std::vector<std::string>>> rows_of(Connection& connection, co
                                                       int columns) {
   auto select = Statement::prepare(connection, sql, kMerging);
   if (!select) return Unexpected{select.error()};
-  std::vector<std::vector<std::string>> rows;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return rows;
-    rows.emplace_back();
-    for (int i = 0; i < columns; ++i) rows.back().push_back(select->text(i));
-  }
+  return select->collect([columns](const Statement& row) {
+    std::vector<std::string> texts;
+    for (int i = 0; i < columns; ++i) texts.push_back(row.text(i));
+    return texts;
+  });
 }
 
 Result<TableShape> shape_of(Connection& connection, const std::string& table) {

@@ -111,12 +111,9 @@ Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
                                     kReadingProperties);
   if (!classes) return Unexpected{classes.error()};
   classes->bind(id);
-  for (;;) {
-    const auto next = classes->step();
-    if (!next) return Unexpected{next.error()};
-    if (!next.value()) return report;
-    report.run.classes[classes->text(0)] = classes->integer(1);
-  }
+  const auto done = classes->for_each([&] { report.run.classes[classes->text(0)] = classes->integer(1); });
+  if (!done) return Unexpected{done.error()};
+  return report;
 }
 
 Result<std::int64_t> latest_property_failure(Database& database) {

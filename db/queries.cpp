@@ -37,18 +37,6 @@ CellSummary read_cell(const Statement& row) {
   return cell;
 }
 
-/// Reads all rows of `statement`, each with `read`.
-template <class Row>
-Result<std::vector<Row>> collect(Statement& statement, Row (*read)(const Statement&)) {
-  std::vector<Row> rows;
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return rows;
-    rows.push_back(read(statement));
-  }
-}
-
 Result<std::vector<CellSummary>> cells_of(Database& database, const std::string& uuid) {
   auto select = Statement::prepare(
       database.connection(),
@@ -57,7 +45,7 @@ Result<std::vector<CellSummary>> cells_of(Database& database, const std::string&
       "reading the cells of a run");
   if (!select) return Unexpected{select.error()};
   select->bind(uuid);
-  return collect(*select, read_cell);
+  return select->collect(read_cell);
 }
 
 /// What the view of its kind says of a run that has no cells.
@@ -114,7 +102,7 @@ Result<std::vector<RunSummary>> list_runs(Database& database, const RunFilter& f
       kListing);
   if (!select) return Unexpected{select.error()};
   select->bind(filter.suite, filter.include_excluded, sql_limit(filter.limit), filter.kind);
-  return collect(*select, read_run);
+  return select->collect(read_run);
 }
 
 Result<std::string> resolve_run(Database& database, std::string_view text) {
@@ -146,7 +134,7 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
         kListing);
     if (!select) return Unexpected{select.error()};
     select->bind(text);
-    auto uuids = collect<std::string>(*select, [](const Statement& row) { return row.text(0); });
+    auto uuids = select->collect([](const Statement& row) { return row.text(0); });
     if (!uuids) return Unexpected{uuids.error()};
     found = std::move(*uuids);
     if (!found.empty()) break;
@@ -185,7 +173,7 @@ Result<RunReport> show_run(Database& database, std::string_view run) {
       Statement::prepare(database.connection(), std::string{kSelectRuns} + "WHERE run = ?", "reading a run");
   if (!select) return Unexpected{select.error()};
   select->bind(*uuid);
-  const auto runs = collect(*select, read_run);
+  const auto runs = select->collect(read_run);
   if (!runs) return Unexpected{runs.error()};
   auto cells = cells_of(database, *uuid);
   if (!cells) return Unexpected{cells.error()};

@@ -74,13 +74,7 @@ Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::stri
                                    "reading finished cases");
   if (!select) return Unexpected{select.error()};
   select->bind(run_uuid);
-  std::vector<CaseInfo> cases;
-  for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return cases;
-    cases.push_back(read_case(*select, 0));
-  }
+  return select->collect([](const Statement& row) { return read_case(row, 0); });
 }
 
 RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t run_id)

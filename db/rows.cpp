@@ -52,13 +52,12 @@ Result<Table> rest_of(sqlite::Statement& statement) {
   Table table;
   const int count = sqlite3_column_count(statement.raw());
   for (int i = 0; i < count; ++i) table.columns.emplace_back(sqlite3_column_name(statement.raw(), i));
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return table;
+  const auto done = statement.for_each([&] {
     std::vector<Value>& values = table.rows.emplace_back();
     for (int i = 0; i < count; ++i) values.push_back(value_of(statement.raw(), i));
-  }
+  });
+  if (!done) return Unexpected{done.error()};
+  return table;
 }
 
 std::int64_t to_count(std::uint64_t value) {

@@ -186,12 +186,11 @@ using SamplesByKey = std::map<SeriesKey, std::vector<Sample>>;
 /// Rows of `select`: the context, the keys of the instances, then a sample.
 Result<SamplesByKey> read_samples(Statement& select) {
   SamplesByKey samples;
-  for (;;) {
-    const auto row = select.step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return samples;
+  const auto done = select.for_each([&] {
     samples[{select.text(0), select.text(1)}].push_back(read_sample(select, 2));
-  }
+  });
+  if (!done) return Unexpected{done.error()};
+  return samples;
 }
 
 /// Names for the sets of instances on which a case was planned: none if there is only one, else

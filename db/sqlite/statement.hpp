@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
@@ -43,6 +44,24 @@ class Statement {
 
   /// True when a row is there, false at the end.
   Result<bool> step();
+  /// Calls `each` in every row that is left.
+  template <class Each>
+  Result<Done> for_each(Each each) {
+    for (;;) {
+      const auto row = step();
+      if (!row) return Unexpected{row.error()};
+      if (!row.value()) return Done{};
+      each();
+    }
+  }
+  /// What `read` makes of every row that is left.
+  template <class Read>
+  auto collect(Read read) -> Result<std::vector<decltype(read(*this))>> {
+    std::vector<decltype(read(*this))> rows;
+    if (const auto done = for_each([&] { rows.push_back(read(*this)); }); !done)
+      return Unexpected{done.error()};
+    return rows;
+  }
   /// Runs to the end and resets, so that the statement can be bound again.
   Result<Done> run();
   void reset();
