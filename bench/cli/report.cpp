@@ -30,7 +30,7 @@ struct ReportArguments {
 int run_report(const ReportArguments& arguments) {
   const auto data = bench::read_report(db::database_path(arguments.database), arguments.run, arguments.base);
   if (!data) return fail(data.error());
-  const bool comparable = !data->cells.rows.empty();
+  const bool comparable = !data->against_base.cells.empty();
   const std::vector<bench::DensityChart> charts =
       bench::density_charts(data->run, comparable ? data->base : std::nullopt);
   std::vector<std::pair<std::string, std::string>> files{{"index.html", bench::report_page(*data, charts)}};

@@ -105,29 +105,20 @@ constexpr const char* kSweepTimeNote =
     "time: median over instances of single plannings that were not interleaved; it informs and judges "
     "nothing, `sipplab gate` does\n";
 
-struct Tables {
-  std::vector<TextRow> behaviour;  ///< of all cells; beside times, of cells in which something differs
-  std::vector<TextRow> times;
-  std::string behaviour_notes;
-};
-
-Tables tables(const Judgement& judgement) {
+/// Empty where no pairs of processes were timed.
+std::vector<TextRow> time_table(const Judgement& judgement) {
   std::vector<TextRow> times;
   for (const Difference& row : judgement.differences) {
     if (row.metric == &kProcessTime) times.push_back(time_row(judgement, row));
   }
   if (!times.empty()) std::rotate(times.begin(), times.begin() + 1, times.end());  // all cells at the end
-  std::vector<TextRow> behaviour;
-  for (std::size_t i = 0; i < judgement.cells.size(); ++i) {
-    if (times.empty() || judgement.cells[i].differing > 0) behaviour.push_back(behaviour_row(judgement, i));
-  }
-  if (!behaviour.empty()) behaviour.push_back(behaviour_row(judgement, std::nullopt));
-  return {table({"cell", "instances", "differ", "solved", "lost", "gained", "p", "time", "PAR-2 [s]",
-                 "both solved", "flowtime", "p", "makespan", "expansions"},
-                behaviour),
-          table({"cell", "slowdown", "at most", "p", "fresh pairs", "p", "sees", "verdict"}, times),
-          kBehaviourNotes + std::string(times.empty() ? kSweepTimeNote : "") + pooled_text(judgement) +
-              unpaired_text(judgement)};
+  return table({"cell", "slowdown", "at most", "p", "fresh pairs", "p", "sees", "verdict"}, times);
+}
+
+std::string behaviour_notes(const Judgement& judgement) {
+  const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
+  return kBehaviourNotes + std::string(timed ? "" : kSweepTimeNote) + pooled_text(judgement) +
+         unpaired_text(judgement);
 }
 
 std::string replay(const Judgement& judgement, const Finding& finding) {
@@ -199,20 +190,33 @@ ordered_json finding_json(const Judgement& judgement, const Finding& finding) {
 
 }  // namespace
 
+std::vector<TextRow> behaviour_table(const Judgement& judgement) {
+  const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
+  std::vector<TextRow> rows;
+  for (std::size_t i = 0; i < judgement.cells.size(); ++i) {
+    if (!timed || judgement.cells[i].differing > 0) rows.push_back(behaviour_row(judgement, i));
+  }
+  if (!rows.empty()) rows.push_back(behaviour_row(judgement, std::nullopt));
+  return table({"cell", "instances", "differ", "solved", "lost", "gained", "p", "time", "PAR-2 [s]",
+                "both solved", "flowtime", "p", "makespan", "expansions"},
+               rows);
+}
+
 std::string report_text(const Report& report) {
   const Judgement& judgement = report.judgement;
-  const Tables shown = tables(judgement);
+  const std::vector<TextRow> behaviour = behaviour_table(judgement);
+  const std::vector<TextRow> times = time_table(judgement);
   std::string text = fmt::format("base {}\nhead {}\n\nexact: {}\n{}\n", report.base, report.head,
                                  behaviour_text(judgement), findings_text(report));
-  if (!shown.behaviour.empty())
-    text += terminal_table(shown.behaviour, 1) + "\n" + shown.behaviour_notes + "\n";
-  if (!shown.times.empty()) text += terminal_table(shown.times, 1) + "\n";
+  if (!behaviour.empty()) text += terminal_table(behaviour, 1) + "\n" + behaviour_notes(judgement) + "\n";
+  if (!times.empty()) text += terminal_table(times, 1) + "\n";
   return text + report.notes + (report.notes.empty() ? "" : "\n") + verdict_text(judgement.all) + "\n";
 }
 
 std::string report_markdown(const Report& report) {
   const Judgement& judgement = report.judgement;
-  const Tables shown = tables(judgement);
+  const std::vector<TextRow> behaviour = behaviour_table(judgement);
+  const std::vector<TextRow> times = time_table(judgement);
   std::string text =
       fmt::format("### {}: {}\n\nBase {}, head {}.\n\n**Behaviour.** {}.\n", report.command,
                   verdict_text(judgement.all), report.base, report.head, behaviour_text(judgement));
@@ -220,11 +224,10 @@ std::string report_markdown(const Report& report) {
     text +=
         "\n<details><summary>Instances</summary>\n\n```\n" + findings_text(report) + "```\n\n</details>\n";
   }
-  if (!shown.behaviour.empty())
-    text += "\n" + markdown_table(shown.behaviour, 1) + "\n" + shown.behaviour_notes;
-  if (shown.times.empty()) return text;
-  return text + "\n**Time**, head over base, processor time of planning.\n\n" +
-         markdown_table(shown.times, 1) + "\n```\n" + report.notes + "```\n";
+  if (!behaviour.empty()) text += "\n" + markdown_table(behaviour, 1) + "\n" + behaviour_notes(judgement);
+  if (times.empty()) return text;
+  return text + "\n**Time**, head over base, processor time of planning.\n\n" + markdown_table(times, 1) +
+         "\n```\n" + report.notes + "```\n";
 }
 
 std::string report_json(const Report& report) {

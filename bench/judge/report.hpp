@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "bench/judge/judgement.hpp"
+#include "bench/judge/text_table.hpp"
 
 namespace sipplab::bench {
 
@@ -26,6 +28,9 @@ std::string report_text(const Report& report);
 std::string report_markdown(const Report& report);
 std::string report_json(const Report& report);
 std::string report_junit(const Report& report);
+
+/// Heading, cells, and all of them together; beside times of processes only cells in which something differs.
+std::vector<TextRow> behaviour_table(const Judgement& judgement);
 
 /// One row as JSON; logarithms as ratios less one.
 nlohmann::ordered_json difference_json(const Judgement& judgement, const Difference& row);

@@ -3,8 +3,13 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
 
+#include "bench/judge/report.hpp"
+#include "bench/present/named_row.hpp"
 #include "bench/present/numbers.hpp"
 #include "bench/present/template.hpp"
 #include "bench/present/trend_text.hpp"
@@ -15,9 +20,9 @@ namespace {
 
 constexpr std::size_t kShortUuid = 8;
 constexpr std::size_t kMinuteLength = 16;  // "2026-01-31T12:00"
-/// A time that changes by less than this is not worth colour: what a quiet machine repeats.
-constexpr double kNotableTimeShare = 0.05;
-constexpr double kNotableCostShare = 0.005;
+constexpr std::size_t kMostFlips = 200;
+/// Differences that are less certain have no colour.
+constexpr double kColourLevel = 0.05;
 
 std::string minute(const std::string& utc) {
   std::string text = utc.substr(0, kMinuteLength);
@@ -91,7 +96,7 @@ class Page {
 
   void density(const std::vector<DensityChart>& charts) {
     if (charts.empty()) note("This run has no finished case.");
-    if (data_.base && !data_.cells.rows.empty()) note("Dashed: the base.");
+    if (data_.base && !data_.against_base.cells.empty()) note("Dashed: the base.");
     text_ += "<div class=\"charts\">\n";
     for (const DensityChart& density : charts) text_ += svg(density.chart, SvgUse::kInline);
     text_ += "</div>\n";
@@ -122,60 +127,47 @@ class Page {
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     return "-";
   }
-  static double real(const db::Value& value) {
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-    const auto* number = std::get_if<double>(&value);
-    return number == nullptr ? std::nan("") : *number;
-  }
-  /// "+3.1 %", good where it fell.
-  static Cell ratio(const db::Value& value, double notable) {
-    const double share = real(value) - 1;
-    if (std::isnan(share)) return {"-", ""};
-    return {signed_share(share, false), share > notable ? "bad" : share < -notable ? "good" : ""};
+  /// The colour of a column of the comparison, by the test of its metric.
+  static std::string colour(const Judgement& judgement, const std::string& column,
+                            std::optional<std::size_t> cell) {
+    const std::pair<std::string_view, const Metric*> columns[] = {{"lost", &kSuccess},
+                                                                  {"gained", &kSuccess},
+                                                                  {kFlowtime.name, &kFlowtime},
+                                                                  {kMakespan.name, &kMakespan},
+                                                                  {kExpansions.name, &kExpansions}};
+    for (const auto& [name, metric] : columns) {
+      const Difference* row = name == column ? judgement.find(*metric, cell) : nullptr;
+      if (row != nullptr && row->adjusted_p <= kColourLevel) return row->effect > 0 ? "bad" : "good";
+    }
+    return "";
   }
 
   void against_base() {
     if (!data_.base) return note("No earlier run of this suite: nothing to compare with.");
-    if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
+    if (data_.against_base.cells.empty()) return note("The two runs have no instance of a case in common.");
+    const Judgement& judgement = data_.against_base;
+    note(fmt::format("{}: {}.", name(judgement.all.verdict), judgement.all.reason));
     note(
-        "Planning by planning. Different: plannings with another status, plan or number of expansions. Time: "
-        "median of the "
-        "ratios, on one machine and compiler only. Flowtime: the same over instances that both "
-        "solved. Gained, lost and p (McNemar's test, each case by itself) count instances: repetitions and "
-        "equal "
-        "files of one are one observation. sipplab compare tells more; sipplab gate decides about times.");
-    const std::string kinds = "tnntttnnnnnnnnn";
-    open_table({"environment", "robots", "ssi", "re-scheduling", "order", "planner", "instances", "different",
-                "base", "run", "gained", "lost", "p", "time", "flowtime"},
-               kinds);
-    for (const auto& cell : data_.cells.rows) {
-      const double base = real(cell[8]);
-      const double head = real(cell[9]);
-      const bool flips = real(cell[10]) + real(cell[11]) > 0;
-      row({{shown(cell[0]), ""},
-           {shown(cell[1]), ""},
-           {shown(cell[2]), ""},
-           {shown(cell[3]), ""},
-           {shown(cell[4]), ""},
-           {shown(cell[5]), ""},
-           {shown(cell[6]), ""},
-           {shown(cell[7]), ""},
-           {fmt::format("{:.1f} %", base * 100), ""},
-           {fmt::format("{:.1f} %", head * 100), head < base   ? "bad"
-                                                 : head > base ? "good"
-                                                               : ""},
-           {shown(cell[10]), ""},
-           {shown(cell[11]), ""},
-           {flips ? short_number(real(cell[12])) : "-", ""},
-           ratio(cell[13], kNotableTimeShare),
-           ratio(cell[15], kNotableCostShare)},
-          kinds);
+        "Coloured: what a test does not call chance. Time: median of single plannings that did not run in "
+        "turn, on "
+        "one machine only; no test judges it. sipplab compare tells more; sipplab gate decides about times.");
+    const std::vector<TextRow> table = behaviour_table(judgement);
+    const std::string kinds = "t" + std::string(table.front().size() - 1, 'n');
+    open_table(table.front(), kinds);
+    for (std::size_t i = 1; i < table.size(); ++i) {
+      std::optional<std::size_t> cell;
+      if (i <= judgement.cells.size()) cell = i - 1;
+      std::vector<Cell> cells;
+      for (std::size_t column = 0; column < table[i].size(); ++column) {
+        cells.push_back({table[i][column], colour(judgement, table.front()[column], cell)});
+      }
+      row(cells, kinds);
     }
     close_table();
   }
 
   /// A table of the history as it is.
-  void plain_table(const db::Table& table, const std::string& kinds, std::size_t status_column) {
+  void plain_table(const db::Table& table, const std::string& kinds) {
     open_table(table.columns, kinds);
     for (const auto& values : table.rows) {
       std::vector<Cell> cells;
@@ -184,8 +176,8 @@ class Page {
         const std::string& column = table.columns[i];
         if (column.size() > 4 && column.compare(column.size() - 4, 4, "_utc") == 0) text = minute(text);
         std::string style;
-        if (i == status_column) {
-          const bool good = text == "passed" || text == "clean" || text == "fixed" || text == "gained";
+        if (column == "status" || column == "state") {
+          const bool good = text == "passed" || text == "clean" || text == "fixed";
           style = good ? "good" : "bad";
         }
         cells.push_back({std::move(text), std::move(style)});
@@ -205,9 +197,28 @@ class Page {
 
   void flips() {
     if (!data_.base) return note("No base.");
-    if (data_.cells.rows.empty()) return note("The two runs have no instance of a case in common.");
-    if (data_.flips.rows.empty()) return note("No instance is solved by one of the two runs only.");
-    plain_table(shortened(data_.flips, kMostFlips, "v_flips"), "ttnnttttnn", 0);
+    if (data_.against_base.cells.empty()) return note("The two runs have no instance of a case in common.");
+    const Judgement& judgement = data_.against_base;
+    std::vector<const Finding*> flips;
+    for (const Finding& finding : judgement.findings) {
+      if (finding.what.kind == ChangeKind::kStatus) flips.push_back(&finding);
+    }
+    if (flips.empty()) return note("No instance is solved by one of the two runs only.");
+    if (flips.size() > kMostFlips) note(fmt::format("The first {}; v_flips has them all.", kMostFlips));
+    flips.resize(std::min(flips.size(), kMostFlips));
+    open_table({"direction", "case", "instance", "base", "run"}, "ttttt");
+    for (const Finding* flip : flips) {
+      const std::string direction(heading(judgement, *flip));
+      row({{direction, direction == "lost"     ? "bad"
+                       : direction == "gained" ? "good"
+                                               : ""},
+           {judgement.cells[flip->cell].name, ""},
+           {judgement.result(*flip).instance, ""},
+           {flip->what.base, ""},
+           {flip->what.head, ""}},
+          "ttttt");
+    }
+    close_table();
   }
 
   void trends() {
@@ -263,19 +274,21 @@ class Page {
     if (data_.properties.rows.empty())
       return note("No property run is recorded; scripts/test --record does so.");
     std::size_t passed = 0;
-    for (const auto& values : data_.properties.rows) passed += shown(values[2]) == "passed" ? 1U : 0U;
+    for (const auto& values : data_.properties.rows) {
+      passed += NamedRow(data_.properties, values).text("status") == "passed" ? 1U : 0U;
+    }
     note(fmt::format("{} of {} pass at their newest run.", passed, data_.properties.rows.size()));
-    plain_table(data_.properties, "twtntt", 2);
+    plain_table(data_.properties, "twtntt");
   }
 
   void fuzzing() {
     if (data_.fuzz_runs.rows.empty()) {
       note("No fuzz run is recorded.");
     } else {
-      plain_table(data_.fuzz_runs, "tttnnnn", 1);
+      plain_table(data_.fuzz_runs, "tttnnnn");
     }
     if (data_.findings.rows.empty()) return note("No finding.");
-    plain_table(shortened(data_.findings, kMostFindings, "v_findings"), "ntttwwttn", 2);
+    plain_table(shortened(data_.findings, kMostFindings, "v_findings"), "ntttwwttn");
   }
 
   const ReportData& data_;

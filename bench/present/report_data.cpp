@@ -3,60 +3,18 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "bench/present/named_row.hpp"
+#include "db/comparisons.hpp"
 #include "db/database.hpp"
 
 namespace sipplab::bench {
 namespace {
 
-using Parameters = std::vector<std::pair<std::string, std::string>>;
-
 /// Metrics whose history the report shows.
 constexpr const char* kTrendMetrics[] = {"success", "runtime", "flowtime", "expansions"};
 
-// Times are compared where both runs come from one machine and compiler. Flips and their test are of
-// instances: repetitions and equal files of one are one observation.
-std::string cells_sql() {
-  return R"sql(
-WITH by_instance AS (
-  SELECT head.case_id AS case_id, avg(base.status = 'solved') AS base_share, avg(head.status = 'solved') AS head_share
-  FROM v_results AS head JOIN v_results AS base USING (case_id, instance_hash, position, repetition)
-  WHERE head.run = :run AND base.run = :other GROUP BY head.case_id, instance_hash),
-flips AS (
-  SELECT case_id, count(*) AS instances, sum(head_share > base_share) AS gained, sum(head_share < base_share) AS lost,
-         mcnemar(base_share > head_share, head_share > base_share) AS p_value
-  FROM by_instance GROUP BY case_id)
-SELECT head.environment AS environment, head.robots AS robots, head.ssi_s AS ssi_s, head.reschedule AS reschedule,
-       head.initial_order AS initial_order,
-       (SELECT )sql" +
-         std::string(db::kPlannerNameSql) +
-         R"sql( FROM case_ WHERE case_.id = head.case_id) AS planner_name,
-       flips.instances AS instances,
-       sum(head.plan_hash IS NOT base.plan_hash OR head.status <> base.status OR head.expansions <> base.expansions)
-         AS different,
-       avg(base.status = 'solved') AS base_success, avg(head.status = 'solved') AS head_success,
-       flips.gained AS gained, flips.lost AS lost, flips.p_value AS p_value,
-       iif(here.machine = there.machine AND here.compiler = there.compiler,
-           median(1.0 * head.planning_time_ns / base.planning_time_ns), NULL) AS time_ratio,
-       sum(base.status = 'solved' AND head.status = 'solved') AS both_solved,
-       median(iif(base.status = 'solved' AND head.status = 'solved', head.flowtime_s / base.flowtime_s, NULL))
-         AS flowtime_ratio
-FROM v_results AS head
-JOIN v_results AS base USING (case_id, instance_hash, position, repetition)
-JOIN flips ON flips.case_id = head.case_id
-JOIN v_runs AS here ON here.run = head.run
-JOIN v_runs AS there ON there.run = base.run
-WHERE head.run = :run AND base.run = :other
-GROUP BY head.case_id
-ORDER BY head.environment, planner_name, head.initial_order, head.reschedule, head.ssi_s, head.robots)sql";
-}
-
-constexpr const char* kFlips =
-    "SELECT direction, environment, robots, ssi_s, reschedule, instance, base_status, head_status, "
-    "base_planning_time_s AS base_s, head_planning_time_s AS head_s FROM v_flips WHERE base_run = :other AND "
-    "head_run = :run "
-    "ORDER BY direction DESC, environment, robots, ssi_s, instance LIMIT 201";
 constexpr const char* kProperties =
     "SELECT room, title, status, cases, started_utc, substr(commit_hash, 1, 10) AS commit_ FROM "
     "v_property_latest "
@@ -70,24 +28,36 @@ constexpr const char* kFindings =
     "ORDER BY state = 'fixed', last_utc DESC LIMIT 101";
 
 db::Result<db::Done> read_tables(const std::filesystem::path& path, ReportData& data) {
-  struct Question {
-    std::string sql;
-    db::Table* answer;
-    bool of_pair;
-  };
-  for (const Question& question :
-       {Question{cells_sql(), &data.cells, true}, Question{kFlips, &data.flips, true},
-        Question{kProperties, &data.properties, false}, Question{kFuzzRuns, &data.fuzz_runs, false},
-        Question{kFindings, &data.findings, false}}) {
-    if (question.of_pair && !data.base) continue;
-    const Parameters parameters = question.of_pair
-                                      ? Parameters{{"run", data.run.run.uuid}, {"other", data.base->run.uuid}}
-                                      : Parameters{};
-    auto table = db::run_sql(path, question.sql, parameters);
+  const std::pair<const char*, db::Table*> questions[] = {
+      {kProperties, &data.properties}, {kFuzzRuns, &data.fuzz_runs}, {kFindings, &data.findings}};
+  for (const auto& [sql, answer] : questions) {
+    auto table = db::run_sql(path, sql);
     if (!table) return Unexpected{table.error()};
-    *question.answer = std::move(*table);
+    *answer = std::move(*table);
   }
   return db::Done{};
+}
+
+/// A run as a side of a comparison, be it excluded or not.
+db::Result<db::ComparisonSide> side_of(const std::filesystem::path& path, const db::RunSummary& run) {
+  const auto table = db::run_sql(path, "SELECT id FROM run WHERE uuid = :run", {{"run", run.uuid}});
+  if (!table) return Unexpected{table.error()};
+  db::ComparisonSide side{run.uuid, run.commit_hash, {}};
+  for (const auto& row : table->rows) side.run_ids.push_back(NamedRow(*table, row).integer("id"));
+  return side;
+}
+
+db::Result<Judgement> judged_against_base(const std::filesystem::path& path, db::Database& database,
+                                          const ReportData& data) {
+  const auto base = side_of(path, data.base->run);
+  if (!base) return Unexpected{base.error()};
+  const auto head = side_of(path, data.run.run);
+  if (!head) return Unexpected{head.error()};
+  auto cells = db::paired_cells(database, *base, *head);
+  if (!cells) return Unexpected{cells.error()};
+  Judgement judgement = measured(std::move(*cells));
+  judge(judgement, {});
+  return judgement;
 }
 
 db::Result<std::set<std::int64_t>> cases_of(const std::filesystem::path& path, const std::string& run) {
@@ -137,6 +107,9 @@ db::Result<ReportData> read_report(const std::filesystem::path& path, const std:
     auto other = db::show_run(*database, *base_run);
     if (!other) return Unexpected{other.error()};
     data.base = std::move(*other);
+    auto judgement = judged_against_base(path, *database, data);
+    if (!judgement) return Unexpected{judgement.error()};
+    data.against_base = std::move(*judgement);
   }
   if (auto done = read_tables(path, data); !done) return Unexpected{done.error()};
   const auto cases = cases_of(path, data.run.run.uuid);

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "bench/judge/judgement.hpp"
 #include "db/queries.hpp"
 #include "db/table.hpp"
 #include "db/trends.hpp"
 
 namespace sipplab::bench {
 
-/// Rows that a page lists at most; of longer tables one more is read.
-inline constexpr std::size_t kMostFlips = 200;
+/// Findings that a page lists at most; of more, one more is read.
 inline constexpr std::size_t kMostFindings = 100;
 
 struct ReportTrend {
@@ -24,10 +24,9 @@ struct ReportTrend {
 struct ReportData {
   db::RunReport run;
   std::optional<db::RunReport> base;
-  db::Table cells;  ///< run against base, a row for each case that both have
-  db::Table flips;
-  db::Table properties;  ///< where each one stands
-  db::Table fuzz_runs;   ///< the newest of each target
+  Judgement against_base;  ///< without cells where there is no base, or no case that both have
+  db::Table properties;    ///< where each one stands
+  db::Table fuzz_runs;     ///< the newest of each target
   db::Table findings;
   std::vector<ReportTrend> trends;
 };

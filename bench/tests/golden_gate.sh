@@ -88,6 +88,11 @@ says '^base run '
 expect 0 compare "run:$base" "run:$head" --db gate.db --format markdown
 says '^### sipplab compare: same'
 
+# Whatever the clock said of two runs of one program, the page gives no colour to chance.
+expect 0 report "$head" --base "$base" --db gate.db -o page
+says 'same: all 16 plannings gave the same' page/index.html
+grep -qE '"n (bad|good)"' page/index.html && complain "a colour in the comparison of two equal runs"
+
 # A run that lost one instance and found another plan for a second one.
 sqlite3 gate.db "
   UPDATE result SET status = 1, makespan_s = NULL, flowtime_s = NULL, plan_hash = NULL, valid = NULL
@@ -102,6 +107,8 @@ says '^  head: failed$'
 says '^plan: warehouse agents:16 seed:1 index:0'
 says '^inconclusive: instances: 1 lost, 0 gained'
 says '<skipped' compare.xml
+expect 0 report "$head" --base "$base" --db gate.db -o page
+says '<td class="bad">lost</td><td>warehouse, 16 robots, ssi 5, none</td>' page/index.html
 expect 1 compare "$base" "$head" --db gate.db --exact --json
 says '"verdict": "regressed"'
 python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
