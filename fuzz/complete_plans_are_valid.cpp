@@ -18,10 +18,8 @@ using fuzz::Event;
 constexpr std::uint64_t kMostSteps = 3'000;
 
 CompleteResult planned(const PlanCase& plan_case) {
-  CompleteOptions options;
-  options.seed = plan_case.options.seed;
-  options.ssi_s = plan_case.options.ssi_s;
-  options.max_steps = kMostSteps;
+  PlannerOptions options = plan_case.options;
+  options.max_expansions = kMostSteps;
   return plan_complete(plan_case.instance, options);
 }
 

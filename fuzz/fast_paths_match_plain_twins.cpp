@@ -12,8 +12,8 @@
 #include "fuzz/support/target.hpp"
 #include "planner/core/tolerances.hpp"
 #include "planner/grid/line_of_sight.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/plain_twins.hpp"
 
 namespace {

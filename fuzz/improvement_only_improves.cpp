@@ -7,8 +7,7 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/portfolio/best_plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace {
 
@@ -20,10 +19,14 @@ using fuzz::require;
 /// Some milliseconds.
 constexpr std::uint64_t kMostIterations = 8;
 
-/// One of a few, by the seed of the case, which stays the same while a case is made smaller.
-Objective objective_of(const PlanCase& plan_case) {
+/// With one of a few objectives, by the seed of the case, which stays the same while a case is made smaller.
+PlannerOptions improving(const PlanCase& plan_case) {
   constexpr Objective kObjectives[] = {{1, 0}, {0, 1}, {1, 20}};
-  return kObjectives[plan_case.options.seed % std::size(kObjectives)];
+  PlannerOptions options = plan_case.options;
+  options.objective = kObjectives[options.seed % std::size(kObjectives)];
+  options.improve = ImproveBudget{};
+  options.improve->iterations = kMostIterations;
+  return options;
 }
 
 void check_valid(const PlanCase& plan_case, double ssi_s, const ImproveResult& result) {
@@ -49,9 +52,8 @@ void check_improvement(const PlanCase& plan_case) {
   const bool solved = planned.status == PlanStatus::kSolved;
   fuzz::count(solved ? Event::kSolved : Event::kFailed);
   if (!solved) return;
-  ImproveOptions options = improve_options(plan_case.options, planned);
-  options.objective = objective_of(plan_case);
-  options.max_iterations = kMostIterations;
+  PlannerOptions options = improving(plan_case);
+  options.ssi_s = planned.ssi_kept_s;
   const auto improved = [&] {
     return improve(plan_case.instance, planned.solution, planned.order(), options);
   };
@@ -68,17 +70,15 @@ void check_improvement(const PlanCase& plan_case) {
 
 /// Everything together.
 void check_best(const PlanCase& plan_case) {
-  BestOptions options;
-  options.planner = plan_case.options;
-  options.objective = objective_of(plan_case);
-  options.max_iterations = kMostIterations;
-  const BestResult best = plan_best(plan_case.instance, options);
+  PlannerOptions options = improving(plan_case);
+  options.best = true;
+  const SolveResult best = solve(plan_case.instance, options);
   const bool solved = best.plan.status == PlanStatus::kSolved;
   fuzz::count(solved ? Event::kSolved : Event::kFailed);
   require(Claim::kResultIsWhole, solved == best.improvement.has_value(), "improved what is no plan");
   if (!solved) return;
   check_valid(plan_case, best.plan.ssi_kept_s, *best.improvement);
-  check_same(*best.improvement, *plan_best(plan_case.instance, options).improvement);
+  check_same(*best.improvement, *solve(plan_case.instance, options).improvement);
 }
 
 }  // namespace

@@ -37,19 +37,12 @@ const Instance& instance_of_solutions() {
   return instance;
 }
 
-bool same_options(const std::optional<PlannerOptions>& a, const std::optional<PlannerOptions>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->ssi_s == b->ssi_s && a->order == b->order && a->rescheduling == b->rescheduling &&
-         a->any_angle == b->any_angle && a->connectedness == b->connectedness && a->weight == b->weight &&
-         a->seed == b->seed && a->rules == b->rules;
-}
-
 bool same(const SolutionDocument& a, const SolutionDocument& b) {
   return a.solution == b.solution && a.status == b.status && a.valid == b.valid && a.order == b.order &&
          a.makespan_s == b.makespan_s && a.flowtime_s == b.flowtime_s && a.tries == b.tries &&
          a.expansions == b.expansions && a.generations == b.generations &&
          a.planning_seconds == b.planning_seconds && a.plan_hash == b.plan_hash && a.made_by == b.made_by &&
-         a.ssi_kept_s == b.ssi_kept_s && same_options(a.options, b.options);
+         a.ssi_kept_s == b.ssi_kept_s && a.options == b.options;
 }
 
 void check_read_back(const SolutionDocument& document) {

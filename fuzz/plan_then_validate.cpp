@@ -13,7 +13,7 @@
 #include "fuzz/support/target.hpp"
 #include "planner/improve/static_times.hpp"
 #include "planner/instance/reachability.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/certify.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/steps_between.hpp"

@@ -8,7 +8,7 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace {
 

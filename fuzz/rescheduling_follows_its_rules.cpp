@@ -10,7 +10,7 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/grid/neighbourhood.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace {
 

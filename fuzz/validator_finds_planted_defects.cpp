@@ -10,7 +10,7 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/io/svg.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/certify.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/sampling_oracle.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/io/plan_case.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace sipplab::bench {
 

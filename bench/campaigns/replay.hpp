@@ -8,7 +8,7 @@
 #include <string>
 
 #include "planner/io/plan_case.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab::bench {

@@ -49,26 +49,8 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   request.random_seeds = arguments.random_seeds;
   request.map = arguments.map;
   request.robots = arguments.robots;
-  for (const std::string& text : arguments.ssi) request.ssi_s.push_back(parse_ssi(text).value_or(0));
-  for (const std::string& text : arguments.reschedule) {
-    request.reschedules.push_back(parse_rescheduling(text).value_or(Rescheduling::kNone));
-  }
-  for (const std::string& text : arguments.order) {
-    request.orders.push_back(parse_initial_order(text).value_or(InitialOrder::kShortestFirst));
-  }
-  request.connectedness = arguments.connectedness;
-  request.any_angle = arguments.any_angle;
-  request.weights = arguments.weights;
-  request.change_rules = [motion = arguments.motion](MotionRules& rules) { motion.apply_to(rules); };
-  if (arguments.method) request.method = parse_method(*arguments.method);
-  if (arguments.fallback) request.fallback = parse_fallback(*arguments.fallback);
-  if (arguments.best || arguments.improve.budget) {
-    request.refinement = arguments.improve.refinement(arguments.best);
-  }
+  request.values = arguments.options.values();
   request.count = arguments.count;
-  if (arguments.time_limit) request.time_limit_s = parse_time_limit_s(*arguments.time_limit);
-  request.max_expansions = arguments.max_expansions;
-  request.max_restarts = arguments.max_restarts;
   request.seed = arguments.seed;
   if (const auto command = command_of(arguments)) request.command = command->name;
   return request;
@@ -286,33 +268,8 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command.add_option("--robots", arguments.robots, "instead of the suite's numbers: 16,32,64")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
-  command.add_option("--ssi", arguments.ssi, "instead of the suite's start-safe intervals: 0,2.5,inf")
-      ->delimiter(',')
-      ->check(check_ssi);
-  command.add_option("--reschedule", arguments.reschedule, "none,deterministic,random,ejection")
-      ->delimiter(',')
-      ->check(check_reschedule);
-  command.add_option("--order", arguments.order, "fifo,shortest,longest,random")
-      ->delimiter(',')
-      ->check(check_order);
-  command.add_option("--connectedness", arguments.connectedness, "2^k neighbours: 2,3")
-      ->delimiter(',')
-      ->check(CLI::Range(2, 5));
-  add_any_angle_flag(command, arguments.any_angle);
-  command.add_option("--weight", arguments.weights, kWeightWords + std::string("; of several, each: 1,1.05"))
-      ->delimiter(',')
-      ->check(real_between(1, kMaxWeight))
-      ->type_name("W,...");
-  arguments.motion.add_to(command);
-  add_method_flags(command, arguments.method, arguments.fallback);
-  command.add_flag("--best", arguments.best, "as `sipplab plan --best`, within the time limit");
-  arguments.improve.add_to(command);
   command.add_option("--count", arguments.count, "instances per case")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
-  command.add_option("--time-limit", arguments.time_limit, "wall-clock seconds per instance, or inf")
-      ->check(check_time_limit);
-  command.add_option("--max-expansions", arguments.max_expansions, "nodes expanded per instance");
-  command.add_option("--max-restarts", arguments.max_restarts, "tries after the first");
   CLI::Option* planner = command
                              .add_option("--planner", arguments.planner,
                                          "another program plans: 'cmd:PROGRAM {task} {map} {config} {out}'")
@@ -343,6 +300,9 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command.add_option("--seed", arguments.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
+  arguments.options.add_to(
+      command, {OptionGroup::kPlanner, OptionGroup::kMotion, OptionGroup::kLimits, OptionGroup::kImprovement},
+      true);
   command.add_option("--repetitions", arguments.repetitions, "the same as --benchmark_repetitions")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
   command

@@ -23,21 +23,8 @@ struct BenchArguments {
   std::optional<std::uint64_t> random_seeds;
   std::optional<std::string> map;
   std::vector<std::size_t> robots;
-  std::vector<std::string> ssi;
-  std::vector<std::string> reschedule;
-  std::vector<std::string> order;
-  std::vector<int> connectedness;
-  std::optional<bool> any_angle;
-  std::vector<double> weights;
-  MotionFlags motion;
-  std::optional<std::string> method;
-  std::optional<std::string> fallback;
+  OptionFlags options;  ///< each may have several values
   std::optional<std::uint64_t> count;
-  std::optional<std::string> time_limit;
-  std::optional<std::uint64_t> max_expansions;
-  std::optional<std::uint64_t> max_restarts;
-  bool best = false;
-  ImproveFlags improve;
   std::uint64_t seed = 1;
   std::int64_t repetitions = 1;
   std::optional<std::string> planner;

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "planner/io/text.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab::cli {
 namespace {

@@ -15,21 +15,18 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/interrupt.hpp"
-#include "bench/sweep/refined_plan.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/validator/validator.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace sipplab::cli {
 namespace {
 
 struct PlanArguments {
   InstanceFlags instance;
-  PlannerFlags planner;
-  ImproveFlags improve;
-  bool best = false;
+  OptionFlags options;
   std::optional<std::string> format;
   std::optional<std::string> output;
   PictureFlags picture;
@@ -44,8 +41,6 @@ constexpr std::size_t kCurveLines = 12;
 /// Ejections that are printed one by one; a run that fails may have thousands. --json has all.
 constexpr std::size_t kEjectionLines = 20;
 
-using bench::RefinedPlan;
-
 /// What -o means without --format: the file's extension, else XML.
 SolutionFormat output_format(const PlanArguments& arguments) {
   if (arguments.format) return parse_solution_format(*arguments.format).value_or(SolutionFormat::kXml);
@@ -53,7 +48,7 @@ SolutionFormat output_format(const PlanArguments& arguments) {
   return parse_solution_format(path.substr(path.find_last_of('.') + 1)).value_or(SolutionFormat::kXml);
 }
 
-SolutionDocument document_of(const RefinedPlan& outcome, const PlannerOptions& options) {
+SolutionDocument document_of(const SolveResult& outcome, const PlannerOptions& options) {
   const PlanResult& result = outcome.plan;
   SolutionDocument document;
   document.status = std::string(name(result.status));
@@ -65,6 +60,7 @@ SolutionDocument document_of(const RefinedPlan& outcome, const PlannerOptions& o
   document.options = options;
   document.made_by = std::string(name(result.made_by));
   document.options->ssi_s = result.ssi_s;
+  document.options->longer_ssi_s.clear();
   for (const Try& pass : result.trace) {
     if (!pass.ejected.empty()) document.ejections.push_back({*pass.failed, pass.ejected});
   }
@@ -132,7 +128,7 @@ std::string improvement_text(const ImprovementLog& log, double ssi_s) {
   return text;
 }
 
-std::string summary(const SolutionDocument& document, const RefinedPlan& outcome, const Instance& instance) {
+std::string summary(const SolutionDocument& document, const SolveResult& outcome, const Instance& instance) {
   std::string text = fmt::format("status      {}{}\nrobots      {}\n", document.status,
                                  document.valid ? ", valid" : "", instance.agents.size());
   if (document.makespan_s) text += fmt::format("makespan    {:.3f} s\n", *document.makespan_s);
@@ -165,11 +161,11 @@ std::optional<std::string> draw(const PlanArguments& arguments, const Instance& 
 
 /// A plan that breaks a promise is an error of ours: it is drawn where a picture was
 /// asked for, and written nowhere.
-int report_invalid(const PlanArguments& arguments, const Instance& instance, const RefinedPlan& outcome,
+int report_invalid(const PlanArguments& arguments, const Instance& instance, const SolveResult& outcome,
                    const ValidationReport& report, const PlannerOptions& options) {
   draw(arguments, instance, outcome.solution(), report, "invalid plan");
   if (arguments.json) {
-    RefinedPlan rejected = outcome;
+    SolveResult rejected = outcome;
     rejected.plan.status = PlanStatus::kFailed;
     print(solution_to_json(instance, document_of(rejected, options)));
   }
@@ -182,23 +178,17 @@ int run_plan(const PlanArguments& arguments) {
   if (!loaded) return fail(kBadUsage, loaded.error());
   const Instance& instance = loaded->instance;
   PlannerOptions options;
-  apply(loaded->options, options);
-  arguments.planner.apply_to(options);
-  if (const auto line = beyond_complete(instance, options)) return fail(kBadUsage, "sipplab: " + *line);
-
-  if (arguments.best || arguments.improve.budget) {
+  options.threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads);
+  const StatedOptions stated = arguments.options.stated();
+  options = stated.applied_to(loaded->options.applied_to(options));
+  if (const auto line = find_beyond(instance, options)) return fail(kBadUsage, "sipplab: " + *line);
+  if (options.best || options.improve) {
     bench::catch_interrupts("\nsipplab: ending with the best plan so far; once more to end at once\n");
     options.stop = &bench::interrupt_flag();
   }
-  if (arguments.best && !arguments.planner.has_time_limit()) options.time_limit_s = kBestTimeLimitS;
-  bench::Refinement refinement = arguments.improve.refinement(arguments.best);
-  refinement.longer_ssi_s = arguments.planner.longer_ssi_s();
-  if (const auto line = bench::find_beyond_refinement(options, refinement)) {
-    return fail(kBadUsage, "sipplab: " + *line);
-  }
-  const RefinedPlan outcome = bench::plan_refined(instance, options, refinement);
-  const bool is_solved = outcome.plan.status == PlanStatus::kSolved;
-  if (is_solved) {
+  if (options.best && !stated.states("time-limit")) options.time_limit_s = kBestTimeLimitS;
+  const SolveResult outcome = solve(instance, options);
+  if (outcome.is_solved()) {
     const ValidationReport report = validate(instance, outcome.solution(), outcome.promises(options.rules));
     if (!report.valid()) return report_invalid(arguments, instance, outcome, report, options);
   }
@@ -222,7 +212,7 @@ int run_plan(const PlanArguments& arguments) {
   } else {
     print(summary(document, outcome, instance));
   }
-  return is_solved ? kSuccess : kNegativeVerdict;
+  return outcome.is_solved() ? kSuccess : kNegativeVerdict;
 }
 
 }  // namespace
@@ -231,13 +221,8 @@ Command add_plan_command(CLI::App& program) {
   auto arguments = std::make_shared<PlanArguments>();
   CLI::App* command = program.add_subcommand("plan", "plan one instance; exit code 1 where it is not solved");
   arguments->instance.add_to(*command);
-  arguments->planner.add_to(*command);
-  arguments->improve.threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads);
-  arguments->improve.add_to(*command);
-  command->add_flag(
-      "--best", arguments->best,
-      "the best plan in 30 s or --time-limit: one at once from the complete planner, better ones from the "
-      "method, longer start-safe intervals or ejection, then improvement");
+  arguments->options.add_to(*command, {OptionGroup::kPlanner, OptionGroup::kMotion, OptionGroup::kLimits,
+                                       OptionGroup::kImprovement});
   command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");

@@ -9,9 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/sweep/refined_plan.hpp"
 #include "planner/io/load_instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab::cli {
 
@@ -27,97 +26,33 @@ class InstanceFlags {
   InstanceFiles files_;
 };
 
-/// --turns, --wait-before-move, --inflate-distance, --inflate-time: each empty unless the user gave it.
-class MotionFlags {
+/// Flags of the planner's options, from their table. Empty unless the user gave them.
+class OptionFlags {
  public:
-  void add_to(CLI::App& command);
+  /// `many`: it takes several values, with commas between.
+  CLI::Option* add(CLI::App& command, const Option& option, bool many = false);
+  /// Those of some groups that the command has no flag of its own for.
+  void add_to(CLI::App& command, std::initializer_list<OptionGroup> groups, bool many = false,
+              OptionRows rows = option_rows());
 
-  /// Overwrites the rules that the user gave.
-  void apply_to(MotionRules& rules) const;
+  /// The first value of each flag; of a list all.
+  StatedOptions stated() const;
+  /// Each flag that was given, with its values.
+  const std::vector<OptionValues>& values() const { return values_; }
 
  private:
-  std::optional<bool> turns_;
-  std::optional<double> wait_before_move_s_;
-  std::optional<double> inflate_distance_cells_;
-  std::optional<double> inflate_time_s_;
+  std::vector<OptionValues> values_;
 };
-
-/// --ssi (a list), --reschedule, --order, --connectedness, --any-angle, --weight, --seed, --time-limit,
-/// --max-expansions, --max-restarts, --method, --fallback, and those of MotionFlags: each empty
-/// unless the user gave it.
-class PlannerFlags {
- public:
-  void add_to(CLI::App& command);
-
-  /// Overwrites the options that the user gave; of several start-safe intervals the first.
-  void apply_to(PlannerOptions& options) const;
-  /// The intervals after the first: those to try in turn where it fails.
-  std::vector<double> longer_ssi_s() const;
-  bool has_time_limit() const { return time_limit_.has_value(); }
-
- private:
-  std::vector<std::string> ssi_;
-  std::optional<std::string> reschedule_;
-  std::optional<std::string> order_;
-  std::optional<int> connectedness_;
-  std::optional<bool> any_angle_;
-  std::optional<double> weight_;
-  std::optional<std::uint64_t> seed_;
-  std::optional<std::string> time_limit_;
-  std::optional<std::uint64_t> max_expansions_;
-  std::optional<std::uint64_t> max_restarts_;
-  std::optional<std::string> method_;
-  std::optional<std::string> fallback_;
-  MotionFlags motion_;
-};
-
-/// Why the complete planner, which the options name, cannot plan this instance, in one line;
-/// none where they do not name it or it can.
-std::optional<std::string> beyond_complete(const Instance& instance, const PlannerOptions& options);
-
-/// What --weight is for.
-inline constexpr const char* kWeightWords =
-    "of the heuristic: with 1.05 far fewer nodes are expanded on large maps, and robots arrive a little "
-    "later (at most so many times as late as by steps alone)";
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
 /// Most robots that can be asked for: beyond, nobody waits for a plan, and memory ends first.
 inline constexpr std::size_t kMostRobots = 1'000'000;
-/// Most threads of an improvement: each holds a copy of the plan.
-inline constexpr unsigned kMostThreads = 64;
-
 /// Checks for CLI11: empty when the text is right, else what was expected.
 std::string check_ssi(const std::string& text);
-std::string check_reschedule(const std::string& text);
-std::string check_order(const std::string& text);
-/// A number of seconds > 0, or "inf".
-std::string check_time_limit(const std::string& text);
 std::string check_positive_real(const std::string& text);
 /// A number in [low, high]. CLI::Range lets "nan" through, which is below and above nothing.
 CLI::Validator real_between(double low, double high);
-std::string check_objective(const std::string& text);
-/// "30", "30s": seconds > 0; "500i": iterations > 0.
-std::string check_improve(const std::string& text);
-
-/// REQUIRES: check_time_limit(text) is empty.
-double parse_time_limit_s(std::string_view text);
-
-/// --improve, --objective and --threads.
-struct ImproveFlags {
-  std::optional<std::string> budget;
-  std::string objective = "flowtime";
-  unsigned threads = 1;
-
-  void add_to(CLI::App& command);
-  bench::Refinement refinement(bool best) const;
-};
-
-/// --any-angle and --no-any-angle; empty unless the user gave one of them.
-void add_any_angle_flag(CLI::App& command, std::optional<bool>& any_angle);
-/// --method and --fallback; empty unless the user gave them.
-void add_method_flags(CLI::App& command, std::optional<std::string>& method,
-                      std::optional<std::string>& fallback);
 
 /// --svg, with `words` for help, and --animate.
 struct PictureFlags {

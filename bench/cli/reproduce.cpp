@@ -119,9 +119,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
                   "seeds of random re-scheduling on each instance; default 10")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000}))
       ->excludes(recorded);
-  command.add_option("--time-limit", sweep.time_limit, "wall-clock seconds per run; default 300")
-      ->check(check_time_limit)
-      ->excludes(recorded);
+  sweep.options.add(command, *find_option("time-limit"))->excludes(recorded);
   command.add_option("--robots", sweep.robots, "only these numbers of robots: 64,128")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots))

@@ -24,7 +24,7 @@ struct ValidateArguments {
   InstanceFlags instance;
   std::string solution;
   std::optional<std::string> ssi;
-  MotionFlags motion;
+  OptionFlags motion;
   PictureFlags picture;
   bool certify = false;
   bool json = false;
@@ -113,15 +113,12 @@ int run_validate(const ValidateArguments& arguments) {
   }
 
   ValidationOptions options;
-  PlannerOptions planned_with;
-  apply(loaded->options, planned_with);
+  PlannerOptions planned_with = loaded->options.applied_to({});
+  planned_with.ssi_s = options.ssi_s;
+  planned_with = arguments.motion.stated().applied_to(document.options.value_or(planned_with));
+  options.ssi_s = planned_with.ssi_s;
   options.rules = planned_with.rules;
-  if (document.options) {
-    options.ssi_s = document.options->ssi_s;
-    options.rules = document.options->rules;
-  }
   if (document.ssi_kept_s) options.ssi_s = *document.ssi_kept_s;  // all that it promises
-  arguments.motion.apply_to(options.rules);
   if (arguments.ssi) options.ssi_s = parse_ssi(*arguments.ssi).value_or(0);
   if (options.ssi_s > 0) options.order = document.order;
   if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded->instance.agents.empty()) {
@@ -162,7 +159,7 @@ Command add_validate_command(CLI::App& program) {
   command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default as the solution says")
       ->check(check_ssi)
       ->type_name("K");
-  arguments->motion.add_to(*command);
+  arguments->motion.add_to(*command, {OptionGroup::kMotion});
   arguments->picture.add_to(*command, "draw the solution and its violations there");
   command->add_flag("--certify", arguments->certify,
                     "prove for each pair that it is safe or collides; exit code 3 where neither is proven");

@@ -39,7 +39,8 @@ std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bo
   SweepRequest request;
   request.suite = find_suite(name);
   if (request.suite == nullptr) return fmt::format("no suite '{}'", name);
-  request.time_limit_s = db::kNoTimeLimit;  // restarts limit these suites; a clock would change results
+  // Restarts limit these suites; a clock would change results.
+  request.values = {{find_option("time-limit"), {"inf"}}};
   request.seed = seed;
   Expected<ExpandedSweep, std::string> sweep = expand(request);
   if (!sweep) return sweep.error();

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "planner/io/json_options.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -25,6 +29,13 @@ std::optional<db::ResultStatus> parse_status(const std::string& text) {
   return std::nullopt;
 }
 
+/// "max_expansions" of --max-expansions.
+std::string key_of(const Option& option) {
+  std::string key = option.name;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
 /// Calls `read`, which may throw as the library does on a value of another type.
 template <class T, class Read>
 Expected<T, std::string> guarded(Read read) {
@@ -38,50 +49,23 @@ Expected<T, std::string> guarded(Read read) {
 }  // namespace
 
 Json to_json(const PlannerOptions& options) {
-  return {{"order", name(options.order)},
-          {"reschedule", name(options.rescheduling)},
-          {"ssi", format_ssi(options.ssi_s)},
-          {"any_angle", options.any_angle},
-          {"connectedness", options.connectedness},
-          {"weight", options.weight},
-          {"turns", options.rules.turns},
-          {"wait_before_move", options.rules.wait_before_move_s},
-          {"inflate_distance", options.rules.inflate_distance_cells},
-          {"inflate_time", options.rules.inflate_time_s},
-          {"seed", options.seed},
-          {"max_expansions", options.max_expansions},
-          {"max_restarts", options.max_restarts},
-          {"method", name(options.method)},
-          {"fallback", name(options.fallback)}};
+  Json json = Json::object();
+  for (const Option& option : option_rows())
+    json[key_of(option)] = Json::parse(option_to_json(option, options));
+  json["ssi"] = format_ssi(options.ssi_s);  // a text always: so builds of version 1.0 read it
+  return json;
 }
 
 Expected<PlannerOptions, std::string> options_from_json(const Json& object) {
   return guarded<PlannerOptions>([&object]() -> Expected<PlannerOptions, std::string> {
     PlannerOptions options;
-    const auto order = parse_initial_order(object.at("order").get<std::string>());
-    const auto rescheduling = parse_rescheduling(object.at("reschedule").get<std::string>());
-    const auto ssi_s = parse_ssi(object.at("ssi").get<std::string>());
-    if (!order || !rescheduling || !ssi_s) return Unexpected{std::string(kNotOurWords)};
-    options.order = *order;
-    options.rescheduling = *rescheduling;
-    options.ssi_s = *ssi_s;
-    options.any_angle = object.at("any_angle").get<bool>();
-    options.connectedness = object.at("connectedness").get<int>();
-    // A build that is older than the weight or the rules says nothing of them.
-    options.weight = object.value("weight", 1.0);
-    options.rules.turns = object.value("turns", false);
-    options.rules.wait_before_move_s = object.value("wait_before_move", 0.0);
-    options.rules.inflate_distance_cells = object.value("inflate_distance", 0.0);
-    options.rules.inflate_time_s = object.value("inflate_time", 0.0);
-    options.seed = object.at("seed").get<std::uint64_t>();
-    options.max_expansions = object.at("max_expansions").get<std::uint64_t>();
-    options.max_restarts = object.at("max_restarts").get<std::uint64_t>();
-    // A partner of an older build says nothing of these.
-    const auto method = parse_method(object.value("method", std::string(name(options.method))));
-    const auto fallback = parse_fallback(object.value("fallback", std::string(name(options.fallback))));
-    if (!method || !fallback) return Unexpected{std::string(kNotOurWords)};
-    options.method = *method;
-    options.fallback = *fallback;
+    for (const Option& option : option_rows()) {
+      const auto found = object.find(key_of(option));
+      if (found == object.end()) continue;
+      const bool is_read = found->is_string() ? option.set(options, found->get<std::string>())
+                                              : option_from_json(option, *found, options);
+      if (!is_read) return Unexpected{std::string(kNotOurWords)};
+    }
     options.time_limit_s = db::kNoTimeLimit;  // a clock that strikes would change results
     return options;
   });

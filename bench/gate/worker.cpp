@@ -13,7 +13,7 @@
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/io/load_instance.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace sipplab::bench {
 namespace {

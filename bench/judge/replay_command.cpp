@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "bench/sweep/sweep_case.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -15,9 +15,9 @@
 #include "planner/geometry/collision_interval.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "planner/grid/static_distances.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/reservation/reservation_table.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab {

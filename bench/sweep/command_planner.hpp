@@ -10,7 +10,7 @@
 #include "db/records.hpp"
 #include "planner/core/expected.hpp"
 #include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab::bench {
 

@@ -7,66 +7,42 @@
 #include <utility>
 
 #include "bench/sweep/adversarial.hpp"
-#include "planner/complete/complete_planner.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/io/case_codec.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace sipplab::bench {
 namespace {
 
-template <class T>
-void replace_unless_empty(std::vector<T>& dimension, const std::vector<T>& replacement) {
-  if (!replacement.empty()) dimension = replacement;
+/// Each of the options with each value.
+std::vector<PlannerOptions> with_each(const std::vector<PlannerOptions>& all, const OptionValues& values) {
+  std::vector<PlannerOptions> result;
+  for (const PlannerOptions& options : all) {
+    for (const std::string& text : values.texts) values.option->set(result.emplace_back(options), text);
+  }
+  return result;
 }
 
-/// The block with the dimensions that the user replaced.
+/// The block with what the user replaced, and the limits of the suite.
 SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
   if (request.map) block.map = *request.map;
-  replace_unless_empty(block.robots, request.robots);
-  replace_unless_empty(block.ssi_s, request.ssi_s);
-  replace_unless_empty(block.reschedules, request.reschedules);
-  replace_unless_empty(block.orders, request.orders);
-  if (!request.connectedness.empty()) {
-    PlannerMode mode = block.planners.front();
-    block.planners.clear();
-    for (const int k : request.connectedness) {
-      mode.connectedness = k;
-      block.planners.push_back(mode);
-    }
-  }
-  if (!request.weights.empty()) {
-    const std::vector<PlannerMode> modes = std::exchange(block.planners, {});
-    for (PlannerMode mode : modes) {
-      for (const double weight : request.weights) {
-        mode.weight = weight;
-        block.planners.push_back(mode);
-      }
-    }
-  }
-  if (request.refinement) block.refinement = *request.refinement;
+  if (!request.robots.empty()) block.robots = request.robots;
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
-  for (PlannerMode& planner : block.planners) {
-    planner.any_angle = request.any_angle.value_or(planner.any_angle);
-    planner.method = request.method.value_or(planner.method);
-    planner.fallback = request.fallback.value_or(planner.fallback);
+  for (PlannerOptions& options : block.planners) {
+    if (request.suite == nullptr) break;
+    options.time_limit_s = request.suite->time_limit_s;
+    options.max_restarts = request.suite->max_restarts;
   }
-  if (request.change_rules) {
-    for (PlannerMode& planner : block.planners) request.change_rules(planner.rules);
+  for (const OptionValues& values : request.values) {
+    const auto dimension = std::find_if(block.dimensions.begin(), block.dimensions.end(),
+                                        [&](const OptionValues& own) { return own.option == values.option; });
+    if (dimension != block.dimensions.end()) {
+      *dimension = values;
+    } else {
+      block.planners = with_each(block.planners, values);
+    }
   }
   return block;
-}
-
-/// Options of which only the limits count: the suite's, or what the user set.
-PlannerOptions limits_of(const SweepRequest& request) {
-  PlannerOptions limits;
-  if (request.suite != nullptr) {
-    limits.time_limit_s = request.suite->time_limit_s;
-    limits.max_restarts = request.suite->max_restarts;
-  }
-  limits.time_limit_s = request.time_limit_s.value_or(limits.time_limit_s);
-  limits.max_restarts = request.max_restarts.value_or(limits.max_restarts);
-  limits.max_expansions = request.max_expansions.value_or(limits.max_expansions);
-  return limits;
 }
 
 /// What the complete planner has no use for gets one value, so that cases are not planned
@@ -86,12 +62,10 @@ PlannerOptions without_idle_choices(PlannerOptions options) {
 /// Why a case cannot be planned, in one line.
 std::optional<std::string> find_unplannable(const ExpandedSweep& sweep) {
   for (const NamedCase& named : sweep.cases) {
-    const PlannerOptions& options = named.parameters.options;
-    if (auto line = find_beyond_refinement(options, named.parameters.refinement)) return line;
-    if (options.method != Method::kComplete && options.fallback != Fallback::kComplete) continue;
     for (const PreparedInstance& prepared : sweep.sets[named.parameters.set].instances) {
-      const std::optional<InstanceError> error = find_beyond_complete(prepared.instance, options.rules);
-      if (error) return prepared.row.name + ": " + error->what + ", expected " + error->expected;
+      if (const auto line = find_beyond(prepared.instance, named.parameters.options)) {
+        return prepared.row.name + ": " + *line;
+      }
     }
   }
   return std::nullopt;
@@ -103,26 +77,10 @@ class Expansion {
 
   /// Adds the cases of a block on one set of instances; cases that are there already
   /// (blocks overlap once dimensions are replaced) are left out.
-  void add_cases(const SuiteBlock& block, std::size_t set, const PlannerOptions& limits) {
-    for (const PlannerMode& planner : block.planners) {
-      for (const InitialOrder order : block.orders) {
-        for (const Rescheduling rescheduling : block.reschedules) {
-          for (const double ssi_s : block.ssi_s) {
-            PlannerOptions options = limits;
-            options.order = order;
-            options.rescheduling = rescheduling;
-            options.ssi_s = ssi_s;
-            options.any_angle = planner.any_angle;
-            options.connectedness = planner.connectedness;
-            options.weight = planner.weight;
-            options.rules = planner.rules;
-            options.method = planner.method;
-            options.fallback = planner.fallback;
-            add_seeds(block, set, without_idle_choices(options));
-          }
-        }
-      }
-    }
+  void add_cases(const SuiteBlock& block, std::size_t set) {
+    std::vector<PlannerOptions> all = block.planners;
+    for (const OptionValues& dimension : block.dimensions) all = with_each(all, dimension);
+    for (const PlannerOptions& options : all) add_seeds(block, set, without_idle_choices(options));
   }
 
   std::size_t add_set(InstanceSet set) {
@@ -173,16 +131,10 @@ class Expansion {
     for (std::uint64_t k = 0; k < seeds; ++k) {
       options.seed = request_.seed + k;
       const InstanceSet& instances = sweep_.sets[set];
-      SweepCase parameters{instances.environment,
-                           instances.map_spec,
-                           instances.name,
-                           instances.robots,
-                           instances.radius_cells,
-                           instances.speed_cells_per_s,
-                           options,
-                           set,
-                           block.refinement,
-                           request_.command};
+      SweepCase parameters{
+          instances.environment,  instances.map_spec,          instances.name, instances.robots,
+          instances.radius_cells, instances.speed_cells_per_s, options,        set,
+          request_.command};
       std::string name = case_name(parameters, seeds > 1);
       if (names_.insert(name).second) sweep_.cases.push_back({std::move(name), std::move(parameters)});
     }
@@ -196,11 +148,7 @@ class Expansion {
 };
 
 Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request) {
-  const PlannerOptions defaults;
-  SuiteBlock block;
-  block.ssi_s = {defaults.ssi_s};
-  block.reschedules = {defaults.rescheduling};
-  block = replaced(std::move(block), request);
+  const SuiteBlock block = replaced({}, request);
   Expansion expansion(request);
   std::set<std::pair<std::string, std::size_t>> seen;
   for (const std::string& folder : request.folders) {
@@ -212,7 +160,7 @@ Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request)
                           std::to_string(set.robots) +
                           " robots, expected folders that differ in their last two names"};
       }
-      expansion.add_cases(block, expansion.add_set(std::move(set)), limits_of(request));
+      expansion.add_cases(block, expansion.add_set(std::move(set)));
     }
   }
   return expansion.take();
@@ -224,16 +172,12 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
   for (const AdversarialCase& adversarial : adversarial_cases()) {
     std::optional<PlanCase> plan_case = decode_case(adversarial.text);
     if (!plan_case || find_error(plan_case->instance)) continue;  // a test sees to it that all are read
-    const PlannerOptions& options = plan_case->options;
     SuiteBlock block;
-    block.ssi_s = {options.ssi_s};
-    block.reschedules = {options.rescheduling};
-    block.orders = {options.order};
-    block.planners = {{options.any_angle, options.connectedness, options.rules, options.method,
-                       options.fallback, options.weight}};
+    block.planners = {plan_case->options};
+    block.planners.front().max_expansions = UINT64_MAX;
     const std::size_t set = expansion.add_set(
         single_instance_set("adversarial-" + std::string(adversarial.name), std::move(plan_case->instance)));
-    expansion.add_cases(replaced(std::move(block), request), set, limits_of(request));
+    expansion.add_cases(replaced(std::move(block), request), set);
   }
   return expansion.take();
 }
@@ -250,12 +194,12 @@ Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
       if (request.archive) {
         const auto set = expansion.archived_set(block.map, robots, count);
         if (!set) return Unexpected{set.error()};
-        if (*set) expansion.add_cases(block, **set, limits_of(request));
+        if (*set) expansion.add_cases(block, **set);
         continue;
       }
       const Expected<std::size_t, std::string> set = expansion.generated_set(block, robots, count);
       if (!set) return Unexpected{set.error()};
-      expansion.add_cases(block, *set, limits_of(request));
+      expansion.add_cases(block, *set);
     }
   }
   return expansion.take();

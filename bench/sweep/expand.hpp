@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,21 +25,9 @@ struct SweepRequest {
   std::vector<std::string> folders;           ///< planned with PlannerOptions' defaults unless replaced
   std::optional<std::string> map;
   std::vector<std::size_t> robots;
-  std::vector<double> ssi_s;
-  std::vector<Rescheduling> reschedules;
-  std::vector<InitialOrder> orders;
-  std::vector<int> connectedness;
-  std::optional<bool> any_angle;
-  std::vector<double> weights;
-  /// Overwrites what the user chose of the rules of motion; none: nothing.
-  std::function<void(MotionRules&)> change_rules;
-  std::optional<Method> method;
-  std::optional<Fallback> fallback;
-  std::optional<Refinement> refinement;
+  /// Of options: instead of the suite's, each with each. A dimension of the suite is replaced.
+  std::vector<OptionValues> values;
   std::optional<std::uint64_t> count;
-  std::optional<double> time_limit_s;
-  std::optional<std::uint64_t> max_expansions;
-  std::optional<std::uint64_t> max_restarts;
   std::uint64_t seed = 1;
   std::string command;  ///< name of the program that plans instead; empty: this planner
 };

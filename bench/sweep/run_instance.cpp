@@ -103,52 +103,43 @@ db::ResultRow judged(const Instance& instance, const PlannerOptions& options, co
 
 namespace {
 
-std::vector<db::ProgressRow> progress_rows(const RefinedPlan& refined) {
+std::vector<db::ProgressRow> progress_rows(const SolveResult& solved) {
   std::vector<db::ProgressRow> rows;
-  const ImprovementLog& log = refined.improvement->log;
+  const ImprovementLog& log = solved.improvement->log;
   const auto add = [&](std::uint64_t iteration, double elapsed_s, const PlanCost& cost) {
     rows.push_back({static_cast<std::int64_t>(iteration), nanoseconds(elapsed_s), cost.flowtime_s,
                     cost.makespan_s, log.bound.flowtime_s, log.bound.makespan_s});
   };
   // Plans that were in hand before the one that was improved.
-  for (const BestStep& step : refined.steps) {
+  for (const BestStep& step : solved.steps) {
     if (step.cost && is_better(log.objective, log.curve.front().cost, *step.cost)) {
       add(0, step.ended_s, *step.cost);
     }
   }
   for (const ProgressPoint& point : log.curve) {
-    add(point.iteration, refined.plan.planning_seconds + point.seconds, point.cost);
+    add(point.iteration, solved.plan.planning_seconds + point.seconds, point.cost);
   }
   return rows;
 }
 
 }  // namespace
 
-db::ResultRow run_refined(const Instance& instance, const PlannerOptions& options,
-                          const Refinement& refinement) {
-  const InstructionCount instructions;
-  const RefinedPlan refined = plan_refined(instance, options, refinement);
-  const std::optional<std::int64_t> counted = instructions.count();
-  db::ResultRow row = described(options, refined.plan);
-  row.instructions = counted;
-  row.planning_time_ns = nanoseconds(refined.seconds());
-  row.expansions = refined.statistics().expansions;
-  row.generations = refined.statistics().generations;
-  if (!refined.improvement) return row;
-  add_solution(refined.solution(), row);
-  row.ssi_kept_s = refined.ssi_kept_s();
-  add_verdict(instance, refined.solution(), refined.promises(options.rules), row);
-  if (refined.improvement->log.was_cut_short) row.limit = "time";
-  row.progress = progress_rows(refined);
-  return row;
-}
-
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
   const InstructionCount instructions;
-  const PlanResult result = plan(instance, options);
+  const SolveResult solved = solve(instance, options);
   const std::optional<std::int64_t> counted = instructions.count();
-  db::ResultRow row = judged(instance, options, result);
+  db::ResultRow row = described(options, solved.plan);
   row.instructions = counted;
+  row.planning_time_ns = nanoseconds(solved.seconds());
+  row.expansions = solved.statistics().expansions;
+  row.generations = solved.statistics().generations;
+  if (!solved.is_solved()) return row;
+  add_solution(solved.solution(), row);
+  row.ssi_kept_s = solved.ssi_kept_s();
+  add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
+  if (!solved.improvement) return row;
+  if (solved.improvement->log.was_cut_short) row.limit = "time";
+  row.progress = progress_rows(solved);
   return row;
 }
 

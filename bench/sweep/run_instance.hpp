@@ -2,12 +2,8 @@
 // down what came out.
 #pragma once
 
-#include "bench/sweep/refined_plan.hpp"
 #include "db/records.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
-#include "planner/validator/validator.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace sipplab::bench {
 
@@ -27,12 +23,8 @@ void add_solution(const Solution& solution, db::ResultRow& row);
 void add_verdict(const Instance& instance, const Solution& solution, const ValidationOptions& options,
                  db::ResultRow& row, double rounding = 0);
 
-/// plan() and judged().
+/// solve(), judged by the promises that are kept, with the curve of its improvement. Planning time is that of
+/// all steps. Where the clock ended the improvement, the result says so.
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options);
-
-/// plan_refined(), judged by the promises that are kept, with the curve of its improvement.
-/// Planning time is that of all steps. Where the clock ended the improvement, the result says so.
-db::ResultRow run_refined(const Instance& instance, const PlannerOptions& options,
-                          const Refinement& refinement);
 
 }  // namespace sipplab::bench

@@ -1,14 +1,46 @@
 #include "bench/sweep/suites.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "planner/core/assert.hpp"
+
 namespace sipplab::bench {
 namespace {
 
 constexpr const char* kEmpty = "empty:32x32";
 constexpr const char* kWarehouse = "warehouse";
 
-constexpr Rescheduling kNone = Rescheduling::kNone;
-constexpr Rescheduling kDeterministic = Rescheduling::kDeterministic;
-constexpr Rescheduling kRandom = Rescheduling::kRandom;
+/// "ssi 0,5 reschedule none": options by name, each with its values.
+std::vector<OptionValues> over(std::string_view words) {
+  std::vector<OptionValues> dimensions;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    const std::string_view word = words.substr(0, end);
+    words.remove_prefix(std::min(end + 1, words.size()));
+    if (const Option* option = find_option(word)) {
+      dimensions.push_back({option, {}});
+      continue;
+    }
+    std::string value;
+    for (const char c : std::string(word) + ',') {
+      if (c != ',') {
+        value += c;
+        continue;
+      }
+      PLANNER_ASSERT(!dimensions.empty() && takes(*dimensions.back().option, value));
+      dimensions.back().texts.push_back(std::exchange(value, {}));
+    }
+  }
+  return dimensions;
+}
+
+/// "connectedness 3 turns yes": the defaults otherwise.
+PlannerOptions planner(std::string_view words) {
+  PlannerOptions options;
+  for (const auto& [option, texts] : over(words)) option->set(options, texts.front());
+  return options;
+}
 
 /// Seconds: ten times what the restarts of the suites below take, so that on any
 /// machine it is they that strike.
@@ -18,7 +50,7 @@ constexpr double kGenerousLimitS = 20;
 constexpr double kQuickLimitS = 10;
 
 /// Any-angle over 8 neighbours: what the authors ran.
-constexpr PlannerMode kPaperPlanner{true, 3, {}};
+constexpr const char* kPaperPlanner = "connectedness 3";
 
 Suite smoke() {
   Suite suite;
@@ -28,14 +60,13 @@ Suite smoke() {
   suite.time_limit_s = kGenerousLimitS;
   suite.max_restarts = 10;
   suite.blocks = {
-      {kEmpty, {8, 64}, {0, 5}, {kNone, kDeterministic, kRandom}},
-      {kWarehouse, {16, 64}, {0, 5}, {kNone, kDeterministic, kRandom}},
+      {kEmpty, {8, 64}, over("reschedule none,deterministic,random ssi 0,5")},
+      {kWarehouse, {16, 64}, over("reschedule none,deterministic,random ssi 0,5")},
       {kWarehouse,
        {32},
-       {2.5, kInfiniteSsi},
-       {kDeterministic},
-       {InitialOrder::kFifo, InitialOrder::kLongestFirst, InitialOrder::kRandom},
-       {{true, 2, {}}, {false, 2, {}}, {false, 3, {}}, {false, 5, {}}}},
+       over("order fifo,longest,random reschedule deterministic ssi 2.5,inf"),
+       {planner(""), planner("any-angle no"), planner("any-angle no connectedness 3"),
+        planner("any-angle no connectedness 5")}},
   };
   return suite;
 }
@@ -50,8 +81,8 @@ Suite gate() {
   suite.time_limit_s = kGenerousLimitS;
   suite.max_restarts = 30;
   suite.blocks = {
-      {kEmpty, {32, 64}, {5}, {kDeterministic}},
-      {kWarehouse, {32, 48}, {5}, {kDeterministic}},
+      {kEmpty, {32, 64}, over("reschedule deterministic ssi 5")},
+      {kWarehouse, {32, 48}, over("reschedule deterministic ssi 5")},
   };
   return suite;
 }
@@ -64,8 +95,8 @@ Suite density() {
   suite.time_limit_s = kGenerousLimitS;
   suite.max_restarts = 30;  // deterministic re-scheduling seldom needs more at these densities
   suite.blocks = {
-      {kEmpty, {16, 64, 128, 192, 256}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
-      {kWarehouse, {16, 32, 64, 96, 128}, {0, 3, 5}, {kNone, kDeterministic, kRandom}},
+      {kEmpty, {16, 64, 128, 192, 256}, over("reschedule none,deterministic,random ssi 0,3,5")},
+      {kWarehouse, {16, 32, 64, 96, 128}, over("reschedule none,deterministic,random ssi 0,3,5")},
   };
   return suite;
 }
@@ -79,12 +110,11 @@ Suite mixed() {
   suite.instances = 10;
   suite.time_limit_s = kGenerousLimitS;
   suite.max_restarts = 30;
-  SuiteBlock open{kEmpty, {8, 16, 32, 48}, {0, 5}, {kNone, kDeterministic}};
-  MotionRules turning;
-  turning.turns = true;
-  open.planners = {{true, 3, {}}, {true, 3, turning}, {false, 3, turning}};
+  SuiteBlock open{kEmpty, {8, 16, 32, 48}, over("reschedule none,deterministic ssi 0,5")};
+  open.planners = {planner("connectedness 3"), planner("connectedness 3 turns yes"),
+                   planner("any-angle no connectedness 3 turns yes")};
   open.bodies = {{0.3, 0.5, 0.9, 1.4}, {0.5, 1, 2}, true, 2};
-  SuiteBlock shelves{kWarehouse, {8, 16, 24}, {0, 5}, {kNone, kDeterministic}};
+  SuiteBlock shelves{kWarehouse, {8, 16, 24}, open.dimensions};
   shelves.planners = open.planners;
   shelves.bodies = open.bodies;
   suite.blocks = {open, shelves};
@@ -100,15 +130,17 @@ Suite paper() {
   suite.purpose = "every cell of the paper's Figure 1 and Table 1; takes hours";
   suite.instances = 100;
   suite.time_limit_s = kDefaultTimeLimitS;
-  SuiteBlock figure{
-      kEmpty, {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320}, {0, 1, 3, 5, 7, 9, kInfiniteSsi}, {kNone}};
-  figure.planners = {kPaperPlanner};
-  SuiteBlock table{kWarehouse, {16, 32, 64, 96, 128, 160, 192}, {5}, {kDeterministic, kRandom}};
-  table.planners = {kPaperPlanner};
+  SuiteBlock figure{kEmpty,
+                    {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320},
+                    over("reschedule none ssi 0,1,3,5,7,9,inf"),
+                    {planner(kPaperPlanner)}};
+  SuiteBlock table{kWarehouse,
+                   {16, 32, 64, 96, 128, 160, 192},
+                   over("reschedule deterministic,random ssi 5"),
+                   {planner(kPaperPlanner)}};
   table.random_seeds = 10;
   SuiteBlock longest = table;
-  longest.reschedules = {kRandom};
-  longest.orders = {InitialOrder::kLongestFirst};
+  longest.dimensions = over("order longest reschedule random ssi 5");
   suite.blocks = {figure, table, longest};
   return suite;
 }
@@ -121,7 +153,7 @@ Suite paper_quick() {
   suite.instances = 40;
   suite.time_limit_s = kQuickLimitS;
   suite.blocks[0].robots = {32, 64, 128, 192};
-  suite.blocks[0].ssi_s = {0, 3, 5, 9, kInfiniteSsi};
+  suite.blocks[0].dimensions = over("reschedule none ssi 0,3,5,9,inf");
   for (SuiteBlock* block : {&suite.blocks[1], &suite.blocks[2]}) {
     block->robots = {32, 64, 96, 128};
     block->random_seeds = 2;
@@ -147,23 +179,16 @@ constexpr double kDenseLimitS = 60;
 
 /// Densities at which prioritized planning has stopped.
 Suite dense() {
-  constexpr PlannerMode kComplete{false, 2, {}, Method::kComplete};
   Suite suite;
   suite.name = "dense";
   suite.purpose = "crowded maps, up to 950 robots on 1024 cells, by the complete planner";
   suite.instances = 20;
   suite.time_limit_s = kDenseLimitS;
-  SuiteBlock warehouse{kWarehouse, {128, 160, 192, 224, 256}, {5}, {kNone}};
-  warehouse.planners = {kComplete};
-  SuiteBlock empty{kEmpty, {320, 512, 800, 950}, {5}, {kNone}};
-  empty.planners = {kComplete};
-  suite.blocks = {warehouse, empty};
+  const std::vector<PlannerOptions> complete = {planner("method complete")};
+  suite.blocks = {{kWarehouse, {128, 160, 192, 224, 256}, over("ssi 5"), complete},
+                  {kEmpty, {320, 512, 800, 950}, over("ssi 5"), complete}};
   return suite;
 }
-
-/// Iterations of the anytime suite: some seconds for each instance, and the greater part of
-/// what half a minute gains.
-constexpr std::uint64_t kAnytimeIterations = 2000;
 
 /// What goes beyond the paper: dense cells of both maps, all methods in turn, then improvement.
 /// Counted in iterations: the same plans on every machine, and a curve over time beside them.
@@ -173,15 +198,10 @@ Suite anytime() {
   suite.purpose = "plans from all methods, improved: curves of flowtime and makespan over time";
   suite.instances = 10;
   suite.time_limit_s = kDefaultTimeLimitS;
-  SuiteBlock warehouse{kWarehouse, {96, 128, 160, 192}, {5}, {kDeterministic}};
-  warehouse.planners = {kPaperPlanner};
-  warehouse.refinement.best = true;
-  warehouse.refinement.improve = ImproveBudget{};
-  warehouse.refinement.improve->iterations = kAnytimeIterations;
-  SuiteBlock empty = warehouse;
-  empty.map = kEmpty;
-  empty.robots = {128, 192, 256};
-  suite.blocks = {warehouse, empty};
+  // 2000 iterations are some seconds for each instance, and the greater part of what half a minute gains.
+  const std::vector<PlannerOptions> best = {planner("connectedness 3 best yes improve 2000i")};
+  suite.blocks = {{kWarehouse, {96, 128, 160, 192}, over("reschedule deterministic ssi 5"), best},
+                  {kEmpty, {128, 192, 256}, over("reschedule deterministic ssi 5"), best}};
   return suite;
 }
 
@@ -196,11 +216,12 @@ Suite scale() {
   suite.purpose = "256 to 16384 robots on maps that grow with them; the largest takes many minutes";
   suite.instances = 1;
   suite.time_limit_s = kScaleLimitS;
+  const std::vector<OptionValues> by_rule = over("reschedule deterministic ssi 5");
   suite.blocks = {
-      {"empty:64x64", {256}, {5}, {kDeterministic}},     {"empty:91x90", {512}, {5}, {kDeterministic}},
-      {"empty:128x128", {1024}, {5}, {kDeterministic}},  {"empty:181x181", {2048}, {5}, {kDeterministic}},
-      {"empty:256x256", {4096}, {5}, {kDeterministic}},  {"empty:362x362", {8192}, {5}, {kDeterministic}},
-      {"empty:512x512", {16384}, {5}, {kDeterministic}},
+      {"empty:64x64", {256}, by_rule},     {"empty:91x90", {512}, by_rule},
+      {"empty:128x128", {1024}, by_rule},  {"empty:181x181", {2048}, by_rule},
+      {"empty:256x256", {4096}, by_rule},  {"empty:362x362", {8192}, by_rule},
+      {"empty:512x512", {16384}, by_rule},
   };
   return suite;
 }

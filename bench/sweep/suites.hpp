@@ -7,21 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/sweep/refined_plan.hpp"
 #include "planner/instance/agent.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab::bench {
-
-/// Which planner: for one robot, and for all.
-struct PlannerMode {
-  bool any_angle = true;
-  int connectedness = 2;  ///< 2^k neighbours
-  MotionRules rules = {};
-  Method method = Method::kPrioritized;
-  Fallback fallback = Fallback::kNone;
-  double weight = 1;  ///< of the heuristic
-};
 
 /// What the robots of generated instances are like; see GeneratorOptions.
 struct Bodies {
@@ -36,11 +25,10 @@ struct Bodies {
 struct SuiteBlock {
   std::string map;  ///< as `sipplab generate --map` takes it
   std::vector<std::size_t> robots;
-  std::vector<double> ssi_s;
-  std::vector<Rescheduling> reschedules;
-  std::vector<InitialOrder> orders = {InitialOrder::kShortestFirst};
-  std::vector<PlannerMode> planners = {PlannerMode{}};
-  Refinement refinement = {};  ///< what comes after the method
+  /// Values of options, each with each; those of the last dimension change fastest.
+  std::vector<OptionValues> dimensions;
+  /// What is the same within a case besides; limits are the suite's.
+  std::vector<PlannerOptions> planners = {PlannerOptions{}};
   /// Seeds tried on each instance where the re-scheduling or the order is random.
   std::uint64_t random_seeds = 1;
   Bodies bodies = {};

@@ -93,9 +93,7 @@ Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& pre
                                                      const SweepCase& parameters) const {
   if (command_) return command_->run(prepared.instance, parameters.options);
   const PeakMemory memory;
-  db::ResultRow row = parameters.refinement.is_wanted()
-                          ? run_refined(prepared.instance, parameters.options, parameters.refinement)
-                          : run_instance(prepared.instance, parameters.options);
+  db::ResultRow row = run_instance(prepared.instance, parameters.options);
   row.peak_memory_bytes = memory.bytes();
   return row;
 }

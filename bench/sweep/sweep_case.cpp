@@ -23,17 +23,37 @@ std::string weight_suffix(double weight) {
   return weight == 1 ? "" : fmt::format("+{}:{}", kWeight, format_real(weight));
 }
 
+/// "+improve:300i,flowtime", "+best,flowtime"; empty where nothing is wanted.
+std::string refinement_suffix(const PlannerOptions& options) {
+  if (!options.best && !options.improve) return "";
+  std::string suffix = options.best ? "+best" : "+improve";
+  if (options.improve) suffix += ":" + format_improve_budget(*options.improve);
+  return suffix + "," + format_objective(options.objective);
+}
+
+/// The flags of `sipplab plan` that a suffix stands for.
+std::string refinement_flags(std::string_view suffix) {
+  const std::string_view kind_and_budget = suffix.substr(1, suffix.find(',') - 1);
+  const std::size_t colon = kind_and_budget.find(':');
+  std::string flags;
+  if (kind_and_budget.substr(0, colon) == "best") flags += " --best";
+  if (colon != std::string_view::npos) {
+    flags += " --improve " + std::string(kind_and_budget.substr(colon + 1));
+  }
+  return flags + " --objective " + std::string(suffix.substr(suffix.find(',') + 1));
+}
+
 /// As the history has it.
 std::string planner_of(const SweepCase& sweep_case) {
   if (!sweep_case.command.empty()) return std::string(kProgramPrefix) + sweep_case.command;
   const PlannerOptions& options = sweep_case.options;
   if (options.method == Method::kComplete) {
-    return std::string(kComplete) + refinement_suffix(sweep_case.refinement);
+    return std::string(kComplete) + refinement_suffix(options);
   }
   return (options.any_angle ? "aa-sipp" : "sipp") + weight_suffix(options.weight) +
          rules_suffix(options.rules) +
          std::string(options.fallback == Fallback::kComplete ? kFallbackSuffix : "") +
-         refinement_suffix(sweep_case.refinement);
+         refinement_suffix(options);
 }
 
 /// Whether a part of a planner's name begins what refinement_suffix() wrote.

@@ -7,9 +7,8 @@
 #include <string_view>
 
 #include "bench/sweep/instance_set.hpp"
-#include "bench/sweep/refined_plan.hpp"
 #include "db/records.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab::bench {
 
@@ -21,9 +20,8 @@ struct SweepCase {
   double radius_cells = kDefaultRadiusCells;
   double speed_cells_per_s = kDefaultSpeedCellsPerS;
   PlannerOptions options;
-  std::size_t set = 0;         ///< which InstanceSet of the sweep
-  Refinement refinement = {};  ///< what comes after the method
-  std::string command = {};    ///< name of the CommandPlanner that plans it; empty: this planner
+  std::size_t set = 0;       ///< which InstanceSet of the sweep
+  std::string command = {};  ///< name of the CommandPlanner that plans it; empty: this planner
 };
 
 /// "any-angle-4": any-angle over 4 neighbours; "grid-8": moves between 8 neighbours alone.

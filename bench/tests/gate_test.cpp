@@ -208,6 +208,7 @@ TEST(GateWorker, OptionsAndAnswersReadBack) {
   options.max_restarts = 3;
   options.seed = 9;
   options.weight = 1.5;
+  options.time_limit_s = db::kNoTimeLimit;  // workers know none
   const auto read = options_from_json(nlohmann::json::parse(to_json(options).dump()));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->weight, 1.5);

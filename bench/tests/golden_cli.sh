@@ -138,7 +138,7 @@ equal "$(sqlite3 weights.db 'SELECT group_concat(planner) FROM (SELECT planner F
 
 # --- the history ------------------------------------------------------------------
 
-expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --connectedness 2 --count 2 --db history.db
+expect 0 bench --suite smoke --map warehouse --robots 8 --ssi 0,2.5,inf --reschedule deterministic --order shortest --any-angle --connectedness 2 --count 2 --db history.db
 says '^warehouse +deterministic +8 +2.5 +2/2 +0 +1.00'
 equal "$(ask 'SELECT group_concat(ssi_s) FROM (SELECT ssi_s FROM v_run_cells ORDER BY ssi_s)')" "0.0,2.5,Inf" "start-safe intervals"
 equal "$(ask 'SELECT count(*) FROM v_results WHERE valid AND status = '\''solved'\')" 6 "results"
@@ -205,8 +205,8 @@ refused 'benchmark_out' bench --suite smoke --benchmark_out=nowhere/x.json --db 
 expect 0 generate --map warehouse --agents 3 --seed 899472 --speed 1000 --obstacles 3 -o quick
 "$sipplab" plan --instance quick/0.xml >out 2>err
 [ $? -le 1 ] || complain "what generate writes is not read: $(cat err)"
-refused 'one of true and false' plan --instance warehouse/0.xml --any-angle=foo
-refused 'one of true and false' plan --instance warehouse/0.xml --turns=x
+refused 'one of true or false' plan --instance warehouse/0.xml --any-angle=foo
+refused 'one of true or false' plan --instance warehouse/0.xml --turns=x
 refused 'rounding' bench --map empty:9x9 --robots 1 --planner 'cmd:true {task}' --rounding 1 --db history.db
 refused 'planner.*no such file' bench --map empty:9x9 --robots 1 --planner 'cmd:./nowhere {task}' --db history.db
 

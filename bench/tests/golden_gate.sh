@@ -76,7 +76,7 @@ equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'pla
 
 # --- compare ----------------------------------------------------------------------
 
-sweep=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --connectedness 2 --count 4 --db gate.db)
+sweep=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --any-angle --connectedness 2 --count 4 --db gate.db)
 expect 0 "${sweep[@]}"
 expect 0 "${sweep[@]}"
 runs=$(ask "SELECT uuid FROM run WHERE kind = 'sweep' ORDER BY id")

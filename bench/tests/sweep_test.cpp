@@ -25,6 +25,10 @@
 namespace sipplab::bench {
 namespace {
 
+OptionValues values(std::string_view option, std::vector<std::string> texts) {
+  return {find_option(option), std::move(texts)};
+}
+
 Instance small_instance() {
   GeneratorOptions options;
   options.agents = 6;
@@ -225,10 +229,8 @@ TEST(Expand, ReplacedDimensionsTakeTheSuitesPlace) {
   request.suite = find_suite("density");
   request.map = "empty:8x8";
   request.robots = {2};
-  request.ssi_s = {2.5, kInfiniteSsi};
-  request.reschedules = {Rescheduling::kNone};
-  request.any_angle = false;
-  request.connectedness = {3};
+  request.values = {values("ssi", {"2.5", "inf"}), values("reschedule", {"none"}),
+                    values("any-angle", {"no"}), values("connectedness", {"3"})};
   request.count = 2;
   const auto sweep = expand(request);
   ASSERT_TRUE(sweep.has_value()) << sweep.error();
@@ -248,10 +250,8 @@ TEST(Expand, EachWeightIsACaseOfItsOwnForEachNeighbourhood) {
   request.suite = find_suite("density");
   request.map = "empty:8x8";
   request.robots = {2};
-  request.ssi_s = {5};
-  request.reschedules = {Rescheduling::kNone};
-  request.connectedness = {2, 3};
-  request.weights = {1, 1.5};
+  request.values = {values("ssi", {"5"}), values("reschedule", {"none"}), values("connectedness", {"2", "3"}),
+                    values("weight", {"1", "1.5"})};
   request.count = 1;
   const auto sweep = expand(request);
   ASSERT_TRUE(sweep.has_value()) << sweep.error();
@@ -259,7 +259,7 @@ TEST(Expand, EachWeightIsACaseOfItsOwnForEachNeighbourhood) {
   for (const NamedCase& named : sweep->cases) planners.push_back(planner_name(named.parameters));
   EXPECT_EQ(planners, (std::vector<std::string>{"any-angle-4", "any-angle-4+weight:1.5", "any-angle-8",
                                                 "any-angle-8+weight:1.5"}));
-  request.method = Method::kComplete;
+  request.values.push_back(values("method", {"complete"}));
   const auto complete = expand(request);
   ASSERT_TRUE(complete.has_value()) << complete.error();
   EXPECT_EQ(complete->cases.size(), 1u);  // weights are nothing to it
@@ -271,9 +271,8 @@ TEST(Expand, RandomReschedulingOfThePaperIsRunWithTenSeeds) {
   request.count = 1;
   request.map = "warehouse";
   request.robots = {16};
-  request.ssi_s = {5};
-  request.orders = {InitialOrder::kShortestFirst};
-  request.reschedules = {Rescheduling::kRandom, Rescheduling::kDeterministic};
+  request.values = {values("ssi", {"5"}), values("order", {"shortest"}),
+                    values("reschedule", {"random", "deterministic"})};
   const auto sweep = expand(request);
   ASSERT_TRUE(sweep.has_value()) << sweep.error();
   std::set<std::uint64_t> seeds;
@@ -289,8 +288,7 @@ TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
   request.count = 1;
   request.map = "empty:24x24";
   request.robots = {12};
-  request.ssi_s = {5};
-  request.reschedules = {Rescheduling::kDeterministic};
+  request.values = {values("ssi", {"5"}), values("reschedule", {"deterministic"})};
   const auto sweep = expand(request);
   ASSERT_TRUE(sweep.has_value()) << sweep.error();
   ASSERT_EQ(sweep->sets.size(), 1u);
@@ -309,7 +307,7 @@ TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
   EXPECT_EQ(result.status, db::ResultStatus::kSolved);
   EXPECT_EQ(result.valid, true);
 
-  request.change_rules = [](MotionRules& rules) { rules.turns = false; };
+  request.values.push_back(values("turns", {"no"}));
   const auto plain = expand(request);
   ASSERT_TRUE(plain.has_value());
   EXPECT_EQ(plain->cases.size(), 2u);  // two planners have become one

@@ -50,6 +50,10 @@ std::optional<PlanCase> read_case(const std::uint8_t* data, std::size_t size) {
   PlannerOptions& options = plan_case->options;
   options.max_expansions = std::min(options.max_expansions, kMutatedExpansions);
   options.max_restarts = std::min(options.max_restarts, kMutatedRestarts);
+  // The claims speak of one method, with one start-safe interval.
+  options.method = Method::kPrioritized;
+  options.fallback = Fallback::kNone;
+  options.longer_ssi_s.clear();
   count_kind(*plan_case);
   return plan_case;
 }

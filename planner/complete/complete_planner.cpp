@@ -4,6 +4,7 @@
 
 #include "planner/complete/schedule.hpp"
 #include "planner/complete/start_order.hpp"
+#include "planner/core/clock.hpp"
 #include "planner/core/tolerances.hpp"
 
 namespace sipplab {
@@ -49,7 +50,7 @@ std::optional<InstanceError> find_beyond_complete(const Instance& instance, cons
   return std::nullopt;
 }
 
-CompleteResult plan_complete(const Instance& instance, const CompleteOptions& options) {
+CompleteResult plan_complete(const Instance& instance, const PlannerOptions& options) {
   const FreeGrid grid(instance.map);
   Configuration starts;
   Configuration goals;
@@ -58,9 +59,9 @@ CompleteResult plan_complete(const Instance& instance, const CompleteOptions& op
     goals.push_back(grid.id(agent.goal));
   }
   LacamLimits limits;
-  limits.max_steps = options.max_steps;
+  limits.max_steps = options.max_expansions;
   limits.max_memory_bytes = kMaxSearchBytes;
-  limits.deadline = options.deadline;
+  limits.deadline = deadline_after(Clock::now(), options.time_limit_s);
   LacamResult search = search_lacam(grid, starts, goals, options.seed, limits);
 
   CompleteResult result;

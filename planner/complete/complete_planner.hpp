@@ -3,23 +3,15 @@
 // robots at once (lacam.hpp), then motions in continuous time (schedule.hpp).
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 
 #include "planner/complete/lacam.hpp"
 #include "planner/instance/instance.hpp"
-#include "planner/instance/motion_rules.hpp"
+#include "planner/options/options.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
-
-struct CompleteOptions {
-  std::uint64_t seed = 1;  ///< of ties between cells
-  double ssi_s = 0;        ///< the order that is looked for keeps the promise at most as long
-  std::uint64_t max_steps = UINT64_MAX;
-  std::optional<std::chrono::steady_clock::time_point> deadline;
-};
 
 struct CompleteResult {
   LacamStatus status = LacamStatus::kLimit;
@@ -41,8 +33,9 @@ std::optional<InstanceError> find_beyond_complete(const Instance& instance, cons
 ///  (2) The solution is valid; the promise of start-safe intervals holds for `order` in
 ///      [0, ssi_kept_s], and for no order longer (or as long as it was wanted).
 ///  (3) The same instance and options give the same result unless time is up.
-/// No robot waits longer than the order of visits to each cell demands.
-/// REQUIRES: !find_error(instance) and !find_beyond_complete(instance).
-CompleteResult plan_complete(const Instance& instance, const CompleteOptions& options);
+/// Of the options count the seed (of ties between cells), ssi_s (the order that is looked for keeps the
+/// promise at most as long), max_expansions (steps) and the time limit. No robot waits longer than the order
+/// of visits to each cell demands. REQUIRES: !find_error(instance) and !find_beyond_complete(instance).
+CompleteResult plan_complete(const Instance& instance, const PlannerOptions& options);
 
 }  // namespace sipplab

@@ -8,6 +8,7 @@
 #include "planner/core/parallel.hpp"
 #include "planner/improve/attempt.hpp"
 #include "planner/prioritized/limits.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
 
 namespace sipplab {
 namespace {
@@ -29,9 +30,13 @@ class LargeNeighbourhoodSearch {
  public:
   /// One thread for each planner.
   LargeNeighbourhoodSearch(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                           const ImproveOptions& options, Planners planners)
-      : instance_(instance), options_(options), stream_(Random(options.seed).next()), begin_(Clock::now()) {
-    limits_.deadline = deadline_after(begin_, options.time_limit_s);
+                           const PlannerOptions& options, Planners planners)
+      : instance_(instance),
+        options_(options),
+        budget_(options.improve.value_or(ImproveBudget{})),
+        stream_(Random(options.seed).next()),
+        begin_(Clock::now()) {
+    limits_.deadline = deadline_after(begin_, budget_.seconds);
     limits_.stop = options.stop;
     result_.log.objective = options.objective;
     fill(given, order, options.ssi_s, planners);
@@ -43,10 +48,10 @@ class LargeNeighbourhoodSearch {
 
   ImproveResult run() {
     const std::uint64_t& done = result_.log.iterations;
-    while (done < options_.max_iterations && !instance_.agents.empty() && !is_optimal()) {
+    while (done < budget_.iterations && !instance_.agents.empty() && !is_optimal()) {
       result_.log.was_cut_short = limits_.is_over();
       if (result_.log.was_cut_short) break;
-      play_round(std::min(kIterationsPerRound, options_.max_iterations - done));
+      play_round(std::min(kIterationsPerRound, budget_.iterations - done));
     }
     note_progress(done);
     result_.solution = plan().solution();
@@ -130,7 +135,8 @@ class LargeNeighbourhoodSearch {
   }
 
   const Instance& instance_;
-  const ImproveOptions& options_;
+  const PlannerOptions& options_;
+  ImproveBudget budget_;
   std::uint64_t stream_;  ///< where the seeds of the iterations begin
   Clock::time_point begin_;
   SearchLimits limits_;
@@ -144,33 +150,12 @@ class LargeNeighbourhoodSearch {
 
 }  // namespace
 
-ImproveOptions improve_options(const PlannerOptions& planner, const PlanResult& plan) {
-  ImproveOptions options;
-  options.ssi_s = plan.ssi_kept_s;
-  options.any_angle = planner.any_angle;
-  options.connectedness = planner.connectedness;
-  options.rules = planner.rules;
-  options.seed = planner.seed;
-  options.stop = planner.stop;
-  return options;
-}
-
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                      const ImproveOptions& options, SingleAgentPlanner& planner) {
-  SingleAgentPlanner* const planners[] = {&planner};
-  return LargeNeighbourhoodSearch(instance, given, order, options, planners).run();
-}
-
-ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                      const ImproveOptions& options) {
-  PlannerOptions planner;
-  planner.any_angle = options.any_angle;
-  planner.connectedness = options.connectedness;
-  planner.rules = options.rules;
+                      const PlannerOptions& options) {
   std::vector<std::unique_ptr<SingleAgentPlanner>> planners;
   std::vector<SingleAgentPlanner*> workers;
   for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
-    workers.push_back(planners.emplace_back(single_agent_planner(instance, planner)).get());
+    workers.push_back(planners.emplace_back(single_agent_planner(instance, options)).get());
   }
   return LargeNeighbourhoodSearch(instance, given, order, options, workers).run();
 }

@@ -3,36 +3,16 @@
 // planner; beyond [AY18].
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "planner/improve/objective.hpp"
 #include "planner/improve/static_times.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/prioritized/plan_result.hpp"
 
 namespace sipplab {
-
-struct ImproveOptions {
-  Objective objective;
-  std::uint64_t max_iterations = UINT64_MAX;
-  double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
-  /// Start-safe interval that the plan promises.
-  double ssi_s = 0;
-  bool any_angle = true;  ///< of the planner: which static times bound the result
-  int connectedness = 2;
-  MotionRules rules = {};  ///< that the plan was made under
-  std::uint64_t seed = 1;
-  unsigned threads = 1;  ///< at least one is used; the result does not depend on how many
-  /// Set from outside, by a signal for one: ends the search as the time limit does.
-  const std::atomic<bool>* stop = nullptr;
-};
-
-/// Those of a plan that was made with `planner`: its kind of search, its promise, its seed.
-ImproveOptions improve_options(const PlannerOptions& planner, const PlanResult& plan);
 
 /// A point of the curve: the plan's cost from then on.
 struct ProgressPoint {
@@ -69,15 +49,11 @@ struct ImproveResult {
 ///  (3) it keeps the promise of start-safe intervals where the given plan keeps it in some order;
 ///  (4) the same input, options and number of iterations give the same result, on any number
 ///      of threads: a limit in seconds decides nothing but the number of iterations.
-/// `order` is the given plan's: the result's is near it.
-/// REQUIRES: !find_error(instance); the solution is valid, and one of the planner's kind;
-/// !options.rules.inflates().
-/// One thread, since there is one planner.
+/// `order` is the given plan's: the result's is near it. Of the options, ssi_s is what the plan promises,
+/// improve, objective, seed, threads and stop say how it is improved (without `improve` there is no limit),
+/// and the planner for one robot, which finds new trajectories, is the one that they name. REQUIRES:
+/// !find_error(instance); the solution is valid, and one of that planner's kind; !options.rules.inflates().
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                      const ImproveOptions& options, SingleAgentPlanner& planner);
-
-/// The same with the planner that the options name, one for each thread.
-ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                      const ImproveOptions& options);
+                      const PlannerOptions& options);
 
 }  // namespace sipplab

@@ -77,41 +77,14 @@ bool read_obstacle(Words& words, Instance& instance) {
   return instance.obstacles.size() <= kMaxCaseObstacles;
 }
 
-template <class Value>
-bool assign(Value& value, const std::optional<Value>& read) {
-  if (read) value = *read;
-  return read.has_value();
+/// Wall clocks and threads are left out: plans of a case can be repeated anywhere.
+bool is_of_a_case(const Option& option) {
+  return option.name != std::string_view("time-limit") && *option.json != '\0';
 }
 
-bool read_yes_or_no(Words& words, bool& choice) {
-  const std::string_view word = words.next();
-  choice = word == "yes";
-  return choice || word == "no";
-}
-
-bool read_margin(Words& words, double& margin) {
-  return words.read(margin) && margin >= 0 && margin <= kMaxMotionMargin;
-}
-
-bool read_option(std::string_view name, Words& words, PlannerOptions& options) {
-  if (name == "ssi") return assign(options.ssi_s, parse_ssi(words.next()));
-  if (name == "order") return assign(options.order, parse_initial_order(words.next()));
-  if (name == "reschedule") return assign(options.rescheduling, parse_rescheduling(words.next()));
-  if (name == "any-angle") return read_yes_or_no(words, options.any_angle);
-  if (name == "turns") return read_yes_or_no(words, options.rules.turns);
-  if (name == "wait-before-move") return read_margin(words, options.rules.wait_before_move_s);
-  if (name == "inflate-distance") return read_margin(words, options.rules.inflate_distance_cells);
-  if (name == "inflate-time") return read_margin(words, options.rules.inflate_time_s);
-  if (name == "connectedness") {
-    return words.read(options.connectedness) && options.connectedness >= 2 && options.connectedness <= 5;
-  }
-  if (name == "weight") {
-    return words.read(options.weight) && options.weight >= 1 && options.weight <= kMaxWeight;
-  }
-  if (name == "seed") return words.read(options.seed);
-  if (name == "max-expansions") return words.read(options.max_expansions);
-  if (name == "max-restarts") return words.read(options.max_restarts);
-  return false;
+bool read_option(std::string_view name, Words& words, PlannerOptions& options, OptionRows table) {
+  const Option* option = find_option(name, table);
+  return option != nullptr && is_of_a_case(*option) && option->set(options, words.next());
 }
 
 std::optional<GridMap> make_map(const std::vector<std::string_view>& rows) {
@@ -136,7 +109,7 @@ std::string text(Cell cell) { return std::to_string(cell.x) + ' ' + std::to_stri
 
 }  // namespace
 
-std::optional<PlanCase> decode_case(std::string_view input) {
+std::optional<PlanCase> decode_case(std::string_view input, OptionRows table) {
   PlanCase plan_case;
   plan_case.options.time_limit_s = std::numeric_limits<double>::infinity();
   std::vector<std::string_view> rows;
@@ -156,7 +129,7 @@ std::optional<PlanCase> decode_case(std::string_view input) {
       in_map = false;
       const bool understood = first == "robot"      ? read_robot(words, plan_case.instance)
                               : first == "obstacle" ? read_obstacle(words, plan_case.instance)
-                                                    : read_option(first, words, plan_case.options);
+                                                    : read_option(first, words, plan_case.options, table);
       if (!understood) return std::nullopt;
     }
     if (!words.empty()) return std::nullopt;
@@ -170,7 +143,7 @@ std::optional<PlanCase> decode_case(std::string_view input) {
   return plan_case;
 }
 
-std::string encode_case(const PlanCase& plan_case) {
+std::string encode_case(const PlanCase& plan_case, OptionRows table) {
   const auto& [instance, options] = plan_case;
   std::string out;
   for (std::int32_t y = 0; y < instance.map.height(); ++y) {
@@ -194,27 +167,10 @@ std::string encode_case(const PlanCase& plan_case) {
     }
     out += '\n';
   }
-  out += "ssi " + format_ssi(options.ssi_s) + '\n';
-  out += "order " + std::string(name(options.order)) + '\n';
-  out += "reschedule " + std::string(name(options.rescheduling)) + '\n';
-  out += std::string("any-angle ") + (options.any_angle ? "yes" : "no") + '\n';
-  out += "connectedness " + std::to_string(options.connectedness) + '\n';
-  if (options.weight != 1) out += "weight " + text(options.weight) + '\n';
-  const MotionRules& rules = options.rules;
-  if (rules.turns) out += "turns yes\n";
-  const auto add_margin = [&out](const char* name, double margin) {
-    if (margin != 0) out += name + text(margin) + '\n';
-  };
-  add_margin("wait-before-move ", rules.wait_before_move_s);
-  add_margin("inflate-distance ", rules.inflate_distance_cells);
-  add_margin("inflate-time ", rules.inflate_time_s);
-  out += "seed " + std::to_string(options.seed) + '\n';
-  const PlannerOptions defaults;
-  if (options.max_expansions != defaults.max_expansions) {
-    out += "max-expansions " + std::to_string(options.max_expansions) + '\n';
-  }
-  if (options.max_restarts != defaults.max_restarts) {
-    out += "max-restarts " + std::to_string(options.max_restarts) + '\n';
+  for (const Option& option : table) {
+    if (is_of_a_case(option) && is_told(option, options)) {
+      out += std::string(option.name) + ' ' + option.get(options) + '\n';
+    }
   }
   return out;
 }

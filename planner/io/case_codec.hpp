@@ -8,21 +8,12 @@
 //     obstacle 2 0 radius 0.5 until 1.5 at 2 0 until 3 at 3 0
 //     ssi 2.5
 //     order fifo
-//     reschedule none
 //     any-angle no
-//     connectedness 3
-//     weight 1.5
-//     turns yes
-//     wait-before-move 0.5
-//     inflate-distance 0.25
-//     inflate-time 0.25
-//     seed 7
 //     max-expansions 1000
-//     max-restarts 20
 //
 // First the map, a blocked cell is '@'; then lines in any order, '#' begins a
-// comment. What is not said has its default. An obstacle stands at its first place,
-// then moves (or waits) `until` a time to be `at` the next.
+// comment. Options have the names that the table of options gives them. What is not said has its default. An
+// obstacle stands at its first place, then moves (or waits) `until` a time to be `at` the next.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +22,7 @@
 #include <string_view>
 
 #include "planner/io/plan_case.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab {
 
@@ -44,10 +36,10 @@ inline constexpr std::size_t kMaxCaseMotions = 64;
 /// The case that the text describes; nothing when it has a line that is not
 /// understood or goes beyond the bounds. The instance need not keep the rules of
 /// find_error. The wall-clock limit is infinite, so that plans can be repeated.
-std::optional<PlanCase> decode_case(std::string_view text);
+std::optional<PlanCase> decode_case(std::string_view text, OptionRows table = option_rows());
 
 /// Text that decode_case reads back as the same case, except for what it leaves
 /// out: ids and the wall-clock limit.
-std::string encode_case(const PlanCase& plan_case);
+std::string encode_case(const PlanCase& plan_case, OptionRows table = option_rows());
 
 }  // namespace sipplab

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/instance/instance.hpp"
-#include "planner/io/file_options.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab {
 
@@ -26,7 +26,7 @@ struct MapPart {
 };
 
 struct OptionsPart {
-  FileOptions options;
+  StatedOptions options;
   int line = 0;
 };
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "planner/instance/instance.hpp"
-#include "planner/io/file_options.hpp"
 #include "planner/io/input_error.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab {
 
@@ -32,7 +32,7 @@ struct InstanceFiles {
 
 struct LoadedInstance {
   Instance instance;  ///< find_error(instance) is empty
-  FileOptions options;
+  StatedOptions options;
   std::vector<std::string> warnings;  ///< each one line, "file:line: ..."
 };
 

@@ -5,7 +5,7 @@
 #include <iosfwd>
 
 #include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab {
 

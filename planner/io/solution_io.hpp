@@ -10,9 +10,9 @@
 
 #include "planner/instance/instance.hpp"
 #include "planner/io/input_error.hpp"
-#include "planner/portfolio/best_plan.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 #include "planner/solution/solution.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace sipplab {
 
@@ -39,10 +39,7 @@ struct SolutionDocument {
   std::string made_by;  ///< "prioritized", "complete"; empty where it is not known
   /// The promise of start-safe intervals holds for `order` in [0, ssi_kept_s].
   std::optional<double> ssi_kept_s;
-  /// What it was planned with. Kept by JSON (extra keys at the end: "ssi", "reschedule",
-  /// "initial_order", "any_angle", "connectedness", "seed"; "weight", "turns", "wait_before_move",
-  /// "inflate_distance", "inflate_time" where they are not as by default) and XML; limits and
-  /// methods are not.
+  /// What it was planned with, as the table of options has it. Kept by JSON (extra keys at the end) and XML.
   std::optional<PlannerOptions> options;
   /// Told by JSON, where there is something to tell, and not read back.
   std::vector<EjectionRecord> ejections;

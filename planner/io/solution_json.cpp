@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/core/assert.hpp"
+#include "planner/io/json_options.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/text.hpp"
 
@@ -68,21 +69,10 @@ std::string trajectory_text(const Agent& agent, const Trajectory& trajectory) {
 }
 
 void add_options(Json& out, const PlannerOptions& options) {
-  out["ssi"] = ssi(options.ssi_s);
-  out["reschedule"] = name(options.rescheduling);
-  out["initial_order"] = name(options.order);
-  out["any_angle"] = options.any_angle;
-  out["connectedness"] = options.connectedness;
-  out["seed"] = options.seed;
-  if (options.weight != 1) out["weight"] = number(options.weight);
-  const MotionRules& rules = options.rules;
-  if (rules.turns) out["turns"] = true;
-  const auto add_margin = [&out](const char* key, double margin) {
-    if (margin > 0) out[key] = number(margin);
-  };
-  add_margin("wait_before_move", rules.wait_before_move_s);
-  add_margin("inflate_distance", rules.inflate_distance_cells);
-  add_margin("inflate_time", rules.inflate_time_s);
+  for (const Option& option : option_rows()) {
+    if (*option.json == '\0' || !is_told(option, options)) continue;
+    out[option.json] = Json::parse(option_to_json(option, options));
+  }
 }
 
 Json costs(double flowtime, double makespan) {

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "planner/io/json_line.hpp"
+#include "planner/io/json_options.hpp"
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/text.hpp"
 
@@ -183,38 +183,25 @@ std::optional<double> read_ssi(JsonReader& reader, const json& document, const c
   return ssi_s;
 }
 
-double read_margin(JsonReader& reader, const json& document, const char* key) {
-  const double margin = reader.number_or_null(document, key).value_or(0);
-  if (margin < 0 || margin > kMaxMotionMargin) reader.fail(key, "a number from 0 to 100");
-  return margin;
-}
-
+/// Only where there is a start-safe interval or a rule of motion: other programs may mean something else by a
+/// key such as "method". A start-safe interval that is not stated is 0.
 void read_planner_options(JsonReader& reader, const json& document, SolutionDocument& result) {
-  const std::optional<double> ssi_s = read_ssi(reader, document, "ssi");
-  constexpr std::array kRules = {"turns", "wait_before_move", "inflate_distance", "inflate_time"};
-  const bool has_rules = std::any_of(kRules.begin(), kRules.end(),
-                                     [&](const char* key) { return reader.find(document, key) != nullptr; });
-  if (!ssi_s && !has_rules) return;
   PlannerOptions options;
-  options.ssi_s = ssi_s.value_or(0);
-  const auto rescheduling = parse_rescheduling(reader.text(document, "reschedule", "none"));
-  const auto order = parse_initial_order(reader.text(document, "initial_order", "fifo"));
-  if (!rescheduling) reader.fail("reschedule", "none, deterministic, random or ejection");
-  if (!order) reader.fail("initial_order", "fifo, shortest, longest or random");
-  options.rescheduling = rescheduling.value_or(options.rescheduling);
-  options.order = order.value_or(options.order);
-  options.any_angle = reader.boolean(document, "any_angle", options.any_angle);
-  if (reader.find(document, "connectedness")) {
-    options.connectedness = reader.coordinate(document, "connectedness", "");
-    if (options.connectedness < 2 || options.connectedness > 5) reader.fail("connectedness", "2, 3, 4 or 5");
+  options.ssi_s = 0;
+  const auto value_of = [&](const Option& option) {
+    const json* value = *option.json != '\0' ? reader.find(document, option.json) : nullptr;
+    return value && !value->is_null() ? value : nullptr;
+  };
+  const OptionRows rows = option_rows();
+  const bool is_ours = std::any_of(rows.begin(), rows.end(), [&](const Option& option) {
+    const bool is_telling = option.group == OptionGroup::kMotion || option.name == std::string_view("ssi");
+    return is_telling && value_of(option);
+  });
+  if (!is_ours) return;
+  for (const Option& option : rows) {
+    const json* value = value_of(option);
+    if (value && !option_from_json(option, *value, options)) reader.fail(option.json, option.expected);
   }
-  if (reader.find(document, "seed")) options.seed = reader.count(document, "seed");
-  options.weight = reader.number_or_null(document, "weight").value_or(options.weight);
-  if (options.weight < 1 || options.weight > kMaxWeight) reader.fail("weight", "a number from 1 to 100");
-  options.rules.turns = reader.boolean(document, "turns", false);
-  options.rules.wait_before_move_s = read_margin(reader, document, "wait_before_move");
-  options.rules.inflate_distance_cells = read_margin(reader, document, "inflate_distance");
-  options.rules.inflate_time_s = read_margin(reader, document, "inflate_time");
   result.options = options;
 }
 

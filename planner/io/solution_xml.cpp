@@ -37,7 +37,6 @@ void add_summary(xml_node log, const Instance& instance, const SolutionDocument&
   add_count("expansions", document.expansions);
   add_count("generations", document.generations);
   if (!document.plan_hash.empty()) add_attribute(node, "planhash", document.plan_hash);
-  if (document.options) add_count("seed", document.options->seed);
   if (!document.made_by.empty()) add_attribute(node, "madeby", document.made_by);
   if (document.ssi_kept_s) add_attribute(node, "ssikept", format_ssi(*document.ssi_kept_s));
 }
@@ -100,6 +99,7 @@ void read_summary(XmlReader& reader, xml_node summary, const Instance& instance,
       reader.fail(summary, "ssikept " + in_quotes(ssi_kept.value()), "seconds from 0, or inf");
     }
   }
+  // Where files of version 1.0 have it.
   if (const auto seed = summary.attribute("seed"); seed && document.options) {
     document.options->seed = seed.as_ullong();
   }
@@ -188,8 +188,7 @@ Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::str
   if (!log) reader.fail(reader.root(), "no <log> in <root>", "one with the trajectories");
   SolutionDocument document;
   if (const auto options = read_options(reader)) {
-    document.options.emplace();
-    apply(options->options, *document.options);
+    document.options = options->options.applied_to({});
   }
   read_summary(reader, reader.only_child(log, "summary"), instance, document);
   read_order(reader, reader.only_child(log, "order"), instance, document.order);

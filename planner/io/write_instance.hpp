@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab {
 

@@ -42,34 +42,6 @@ void add_obstacle(xml_node parent, const DynamicObstacle& obstacle) {
                                                          : obstacle.trajectory);
 }
 
-const char* published_name(InitialOrder order) {
-  switch (order) {
-    case InitialOrder::kShortestFirst:
-      return "shortest_first";
-    case InitialOrder::kLongestFirst:
-      return "longest_first";
-    case InitialOrder::kRandom:
-      return "random";
-    case InitialOrder::kFifo:
-      break;
-  }
-  return "fifo";
-}
-
-const char* published_name(Rescheduling rescheduling) {
-  switch (rescheduling) {
-    case Rescheduling::kDeterministic:
-      return "rulebased";
-    case Rescheduling::kRandom:
-      return "random";
-    case Rescheduling::kEjection:
-      return "ejection";  // not known to the published planner
-    case Rescheduling::kNone:
-      break;
-  }
-  return "no";
-}
-
 /// Takes what pugixml writes.
 struct TextWriter final : pugi::xml_writer {
   std::string text;
@@ -126,26 +98,12 @@ void add_instance(xml_node root, const Instance& instance) {
   add_obstacles(root, instance);
 }
 
-void add_options(xml_node root, const PlannerOptions& options) {
-  const auto time = [](double time_s, const char* infinite) {
-    return std::isinf(time_s) ? std::string(infinite) : format_real(time_s);
-  };
+void add_options(xml_node root, const PlannerOptions& options, OptionRows rows) {
   xml_node node = root.append_child("algorithm");
-  add_text(node, "allowanyangle", options.any_angle ? "true" : "false");
-  add_text(node, "connectedness", std::to_string(options.connectedness));
-  if (options.weight != 1) add_text(node, "weight", format_real(options.weight));
-  add_text(node, "prioritization", published_name(options.order));
-  add_text(node, "rescheduling", published_name(options.rescheduling));
-  add_text(node, "startsafeinterval", time(options.ssi_s, "infinity"));
-  add_text(node, "timelimit", time(options.time_limit_s, "-1"));
-  const MotionRules& rules = options.rules;
-  if (rules.turns) add_text(node, "planforturns", "true");
-  const auto add_margin = [&node](const char* name, double margin) {
-    if (margin > 0) add_text(node, name, format_real(margin));
-  };
-  add_margin("waitbeforemove", rules.wait_before_move_s);
-  add_margin("inflatecollisionintervals", rules.inflate_distance_cells);
-  add_margin("inflatecollisiontime", rules.inflate_time_s);
+  for (const Option& option : rows) {
+    if (*option.xml == '\0' || !is_told(option, options)) continue;
+    add_text(node, option.xml, published_text(option, option.get(options)));
+  }
 }
 
 void add_sections(xml_node parent, const Trajectory& trajectory, std::optional<double> start_heading_deg) {

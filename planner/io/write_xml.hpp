@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/option_table.hpp"
 #include "planner/solution/trajectory.hpp"
 
 namespace sipplab {
@@ -25,8 +25,8 @@ void add_map(pugi::xml_node root, const GridMap& map);
 void add_obstacles(pugi::xml_node root, const Instance& instance);
 void add_instance(pugi::xml_node root, const Instance& instance);
 
-/// <algorithm>. Limits but that of time have no place there.
-void add_options(pugi::xml_node root, const PlannerOptions& options);
+/// <algorithm>.
+void add_options(pugi::xml_node root, const PlannerOptions& options, OptionRows rows = option_rows());
 
 /// One <section> a motion, each with its duration and with begin and end, exact; with the
 /// headings at both ends where that at the beginning is given.

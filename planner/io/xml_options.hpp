@@ -10,6 +10,6 @@ namespace sipplab {
 
 /// What the two elements under <root> state; nothing where neither is there. Errors
 /// go to the reader.
-std::optional<OptionsPart> read_options(XmlReader& reader);
+std::optional<OptionsPart> read_options(XmlReader& reader, OptionRows rows = option_rows());
 
 }  // namespace sipplab

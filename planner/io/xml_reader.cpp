@@ -18,7 +18,7 @@ constexpr const char* kIntegerRangeWords = "an integer between -2147483648 and 2
 /// of its elements.
 constexpr std::size_t kMaxWarnings = 20;
 
-bool contains(std::initializer_list<std::string_view> names, std::string_view name) {
+bool contains(const std::vector<std::string_view>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -108,7 +108,7 @@ std::vector<std::string> XmlReader::take_warnings() {
   return std::move(warnings_);
 }
 
-void XmlReader::report(pugi::xml_node node, std::string what, std::initializer_list<std::string_view> names,
+void XmlReader::report(pugi::xml_node node, std::string what, const std::vector<std::string_view>& names,
                        Others others) {
   if (others == Others::kIgnored) return warn(node, what + ", ignored");
   std::string known;
@@ -116,7 +116,7 @@ void XmlReader::report(pugi::xml_node node, std::string what, std::initializer_l
   fail(node, std::move(what), known.empty() ? "none" : known);
 }
 
-void XmlReader::expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names,
+void XmlReader::expect_only_children(pugi::xml_node node, const std::vector<std::string_view>& names,
                                      Others others) {
   for (const pugi::xml_node child : node.children()) {
     if (is_text(child)) {
@@ -127,7 +127,7 @@ void XmlReader::expect_only_children(pugi::xml_node node, std::initializer_list<
   }
 }
 
-void XmlReader::expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names,
+void XmlReader::expect_only_attributes(pugi::xml_node node, const std::vector<std::string_view>& names,
                                        Others others) {
   for (const pugi::xml_attribute attribute : node.attributes()) {
     if (contains(names, attribute.name())) continue;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <pugixml.hpp>
@@ -53,9 +52,9 @@ class XmlReader {
   /// the problem; reported by a warning where they cannot.
   enum class Others { kRefused, kIgnored };
   /// Looks for children, and text between children, that are not in the list.
-  void expect_only_children(pugi::xml_node node, std::initializer_list<std::string_view> names,
+  void expect_only_children(pugi::xml_node node, const std::vector<std::string_view>& names,
                             Others others = Others::kRefused);
-  void expect_only_attributes(pugi::xml_node node, std::initializer_list<std::string_view> names,
+  void expect_only_attributes(pugi::xml_node node, const std::vector<std::string_view>& names,
                               Others others = Others::kRefused);
 
   /// The child of this name, or an empty node; a second one is an error.
@@ -78,7 +77,7 @@ class XmlReader {
   bool boolean_text(pugi::xml_node node);
 
  private:
-  void report(pugi::xml_node node, std::string what, std::initializer_list<std::string_view> names,
+  void report(pugi::xml_node node, std::string what, const std::vector<std::string_view>& names,
               Others others);
 
   XmlReader(std::string_view text, const std::string& file_name) : lines_(text), file_name_(file_name) {}

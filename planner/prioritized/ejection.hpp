@@ -3,7 +3,8 @@
 // Beyond [AY18], whose re-scheduling plans everybody again.
 #pragma once
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/instance/instance.hpp"
+#include "planner/prioritized/plan_result.hpp"
 
 namespace sipplab {
 

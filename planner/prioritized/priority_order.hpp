@@ -7,7 +7,7 @@
 
 #include "planner/core/random.hpp"
 #include "planner/instance/instance.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab {
 

@@ -1,7 +1,7 @@
 #include "planner/prioritized/start_guard.hpp"
 
 #include "planner/instance/disk_lookup.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 
 namespace sipplab {
 

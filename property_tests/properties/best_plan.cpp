@@ -1,6 +1,6 @@
 // Methods tried one after the other: escalation of start-safe intervals, and the best plan
 // that can be had.
-#include "planner/portfolio/best_plan.hpp"
+#include "planner/solve/solve.hpp"
 
 #include <rapidcheck.h>
 
@@ -35,11 +35,12 @@ std::vector<double> any_longer_ssi_s() {
 /// there is no plan.
 constexpr std::uint64_t kAmpleExpansions = 200'000;
 
-BestOptions best_options(const PlanCase& plan_case) {
-  BestOptions options;
-  options.planner = plan_case.options;
+PlannerOptions best_options(const PlanCase& plan_case) {
+  PlannerOptions options = plan_case.options;
+  options.best = true;
   options.longer_ssi_s = any_longer_ssi_s();
-  options.max_iterations = kIterations;
+  options.improve = ImproveBudget{};
+  options.improve->iterations = kIterations;
   return options;
 }
 
@@ -54,7 +55,9 @@ int main() {
       property("escalation: the plan of the first start-safe interval with which the method succeeds", [] {
         PlanCase plan_case = any_noted_case();
         const std::vector<double> longer_s = any_longer_ssi_s();
-        const PlanResult result = plan_escalating(plan_case.instance, plan_case.options, longer_s);
+        PlannerOptions escalating = plan_case.options;
+        escalating.longer_ssi_s = longer_s;
+        const PlanResult result = plan(plan_case.instance, escalating);
         RC_CLASSIFY(result.ssi_s != plan_case.options.ssi_s, "with another interval");
         RC_CLASSIFY(result.ssi_s != plan_case.options.ssi_s && result.status == PlanStatus::kSolved,
                     "solved with another interval");
@@ -82,7 +85,7 @@ int main() {
 
   passed &= property("the best plan: valid, with the promise for as long as it says", [] {
     const PlanCase plan_case = any_noted_case();
-    const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
+    const SolveResult best = solve(plan_case.instance, best_options(plan_case));
     RC_CLASSIFY(best.steps.size() > 1, "several steps");
     RC_CLASSIFY(best.steps.size() > 1 && best.improvement, "solved in a later step");
     RC_ASSERT(best.improvement.has_value() == (best.plan.status == PlanStatus::kSolved));
@@ -98,7 +101,7 @@ int main() {
   passed &= property("the best plan: solves what the complete planner solves", [] {
     PlanCase plan_case = any_noted_case();
     RC_PRE(!find_beyond_complete(plan_case.instance, plan_case.options.rules));
-    const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
+    const SolveResult best = solve(plan_case.instance, best_options(plan_case));
     RC_CLASSIFY(best.steps.back().kind == BestStep::Kind::kFallback, "by the fallback");
     plan_case.options.method = Method::kComplete;
     const PlanResult complete = plan(plan_case.instance, plan_case.options);
@@ -110,7 +113,7 @@ int main() {
       property("the best plan: solves what the method solves in few tries, and what ejection solves", [] {
         PlanCase plan_case = any_noted_case();
         plan_case.options.max_expansions = kAmpleExpansions;
-        const BestResult best = plan_best(plan_case.instance, best_options(plan_case));
+        const SolveResult best = solve(plan_case.instance, best_options(plan_case));
         plan_case.options.max_restarts = 1;
         const PlanResult method = plan(plan_case.instance, plan_case.options);
         plan_case.options.rescheduling = Rescheduling::kEjection;
@@ -128,9 +131,9 @@ int main() {
 
   passed &= property("the best plan: the same again, and its tries are those of its steps", [] {
     const PlanCase plan_case = any_noted_case();
-    const BestOptions options = best_options(plan_case);
-    const BestResult one = plan_best(plan_case.instance, options);
-    const BestResult other = plan_best(plan_case.instance, options);
+    const PlannerOptions options = best_options(plan_case);
+    const SolveResult one = solve(plan_case.instance, options);
+    const SolveResult other = solve(plan_case.instance, options);
     RC_ASSERT(one.plan.status == other.plan.status);
     RC_ASSERT(one.plan.tries() == other.plan.tries());
     RC_ASSERT(one.improvement.has_value() == other.improvement.has_value());
@@ -142,7 +145,7 @@ int main() {
       if (step.kind != BestStep::Kind::kFallback) counted += step.tries;
     }
     RC_ASSERT(one.plan.tries() == tries);
-    RC_ASSERT(counted <= options.planner.max_restarts + 1);
+    RC_ASSERT(counted <= options.max_restarts + 1);
   });
 
   return passed ? 0 : 1;

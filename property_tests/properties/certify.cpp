@@ -10,7 +10,7 @@
 #include <ostream>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/body_track.hpp"
 #include "planner/validator/enclosure.hpp"
 #include "planner/validator/validator.hpp"

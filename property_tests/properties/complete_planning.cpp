@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "planner/complete/complete_planner.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/pebble_search.hpp"
@@ -19,11 +19,9 @@ namespace {
 /// Steps: far more than the cases here take, a few milliseconds each at most.
 constexpr std::uint64_t kMostSteps = 20'000;
 
-CompleteOptions options_of(const PlanCase& plan_case) {
-  CompleteOptions options;
-  options.seed = plan_case.options.seed;
-  options.ssi_s = plan_case.options.ssi_s;
-  options.max_steps = kMostSteps;
+PlannerOptions options_of(const PlanCase& plan_case) {
+  PlannerOptions options = plan_case.options;
+  options.max_expansions = kMostSteps;
   return options;
 }
 
@@ -89,7 +87,7 @@ int main() {
 
   passed &= property("plan_complete (1): solves exactly what an exhaustive search solves", [] {
     const PlanCase plan_case = any_crowd();
-    const CompleteResult result = plan_complete(plan_case.instance, CompleteOptions{});
+    const CompleteResult result = plan_complete(plan_case.instance, PlannerOptions{});
     const bool solvable = is_solvable_by_pebbles(plan_case.instance);
     RC_CLASSIFY(solvable, "solvable");
     RC_ASSERT(result.status == (solvable ? LacamStatus::kSolved : LacamStatus::kUnsolvable));

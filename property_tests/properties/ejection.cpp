@@ -8,6 +8,7 @@
 #include <deque>
 #include <set>
 
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

@@ -9,6 +9,8 @@
 
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/improve/attempt.hpp"
+#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
@@ -37,19 +39,16 @@ Planned any_planned() {
   return planned;
 }
 
-ImproveOptions any_improve_options(const PlannerOptions& options) {
-  ImproveOptions improving;
-  improving.objective =
-      *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1}, Objective{1, 20});
-  improving.max_iterations = *rc::gen::inRange<std::uint64_t>(0, 40);
-  improving.ssi_s = options.ssi_s;
-  improving.any_angle = options.any_angle;
-  improving.connectedness = options.connectedness;
-  improving.seed = *rc::gen::arbitrary<std::uint64_t>();
-  return improving;
+/// Those of the plan, with a few iterations of improvement.
+PlannerOptions any_improve_options(PlannerOptions options) {
+  options.objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1}, Objective{1, 20});
+  options.improve = ImproveBudget{};
+  options.improve->iterations = *rc::gen::inRange<std::uint64_t>(0, 40);
+  options.seed = *rc::gen::arbitrary<std::uint64_t>();
+  return options;
 }
 
-ImproveResult improved(const Planned& planned, const ImproveOptions& options) {
+ImproveResult improved(const Planned& planned, const PlannerOptions& options) {
   ImproveResult result =
       improve(planned.plan_case.instance, planned.result.solution, planned.result.order(), options);
   RC_CLASSIFY(result.log.improvements > 0, "improved");
@@ -107,12 +106,12 @@ int main() {
 
   passed &= property("improve (1): never worse than what it was given, and as it says", [] {
     const Planned planned = any_planned();
-    const ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const PlannerOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult result = improved(planned, options);
     const PlanCost before = cost_of(planned.result.solution);
     const PlanCost after = cost_of(result.solution);
     RC_ASSERT(!is_better(options.objective, before, after));
-    RC_ASSERT(result.log.iterations <= options.max_iterations);
+    RC_ASSERT(result.log.iterations <= options.improve->iterations);
     RC_ASSERT(result.log.curve.front().cost.flowtime_s == before.flowtime_s);
     RC_ASSERT(result.log.curve.back().cost.flowtime_s == after.flowtime_s);
     RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
@@ -148,33 +147,34 @@ int main() {
 
   passed &= property("improve (2)(3): valid, and it keeps the promise where it was kept", [] {
     const Planned planned = any_planned();
-    const ImproveOptions options = any_improve_options(planned.plan_case.options);
+    const PlannerOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult result = improved(planned, options);
     RC_ASSERT(result.order.has_value());
     RC_ASSERT(result.log.keeps_promise);
-    assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+    assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order, options.rules});
   });
 
   passed &= property("improve (2)(3): a promise that was not made is made only where it holds", [] {
     const Planned planned = any_planned();
-    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    PlannerOptions options = any_improve_options(planned.plan_case.options);
     options.ssi_s = *rc::gen::element(1.0, 2.5, 5.0, kInfiniteSsi);
     const ImproveResult result = improved(planned, options);
     RC_CLASSIFY(!result.order, "in no order");
     assert_valid(planned.plan_case.instance, result.solution, {});
     if (result.order)
-      assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order});
+      assert_valid(planned.plan_case.instance, result.solution,
+                   {options.ssi_s, *result.order, options.rules});
   });
 
   passed &= property("improve (4): the same number of iterations gives the same plan", [] {
     const Planned planned = any_planned();
-    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    PlannerOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult one = improved(planned, options);
     const ImproveResult same = improved(planned, options);
     RC_ASSERT(one.solution == same.solution);
     RC_ASSERT(one.order == same.order);
     RC_ASSERT(one.statistics.expansions == same.statistics.expansions);
-    options.max_iterations += *rc::gen::inRange<std::uint64_t>(0, 20);
+    options.improve->iterations += *rc::gen::inRange<std::uint64_t>(0, 20);
     const ImproveResult longer = improved(planned, options);
     for (std::size_t i = 0; i + 1 < one.log.curve.size(); ++i) {
       RC_ASSERT(longer.log.curve[i].iteration == one.log.curve[i].iteration);
@@ -184,7 +184,7 @@ int main() {
 
   passed &= property("improve (4): any number of threads gives the same plan", [] {
     const Planned planned = any_planned();
-    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    PlannerOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult one = improved(planned, options);
     options.threads = *rc::gen::inRange(2U, 5U);
     const ImproveResult several = improved(planned, options);
@@ -196,7 +196,7 @@ int main() {
 
   passed &= property("a search that is stopped at once gives back what it was given", [] {
     const Planned planned = any_planned();
-    ImproveOptions options = any_improve_options(planned.plan_case.options);
+    PlannerOptions options = any_improve_options(planned.plan_case.options);
     const std::atomic<bool> stop{true};
     options.stop = &stop;
     const ImproveResult result = improved(planned, options);

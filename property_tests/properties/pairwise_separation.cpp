@@ -7,7 +7,7 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/instance/reachability.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

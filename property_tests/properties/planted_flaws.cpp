@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"

@@ -1,6 +1,7 @@
 // Every robot of every try against an exhaustive search for it alone, among the robots
 // that were planned before it and the starts of those that were not. [AY18], section 3.
 #include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 #include <rapidcheck.h>
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

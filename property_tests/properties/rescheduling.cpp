@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/steps_between.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

@@ -12,6 +12,7 @@
 #include "planner/grid/heading.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

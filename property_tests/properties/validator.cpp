@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 #include "planner/validator/separation.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

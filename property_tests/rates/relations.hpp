@@ -9,7 +9,7 @@
 
 #include "planner/core/random.hpp"
 #include "planner/io/plan_case.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace sipplab {
 

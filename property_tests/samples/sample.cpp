@@ -2,7 +2,7 @@
 // every way in which a property can end. Not run as a test by itself.
 #include <rapidcheck.h>
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 

@@ -76,7 +76,7 @@ TEST(CaseCodec, RefusesWhatItDoesNotUnderstand) {
            "...\nssi 5 6\n",
            "...\norder alphabetical\n",
            "...\nreschedule maybe\n",
-           "...\nany-angle 1\n",
+           "...\nany-angle 2\n",
            "...\nconnectedness 6\n",
            "...\nweight 0.5\n",
            "...\nweight nan\n",

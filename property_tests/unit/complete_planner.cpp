@@ -31,7 +31,7 @@ Instance instance_of(std::int32_t width, std::int32_t height, const Ways& ways,
 }
 
 CompleteResult planned(const Instance& instance, double ssi_s = 0) {
-  CompleteOptions options;
+  PlannerOptions options;
   options.ssi_s = ssi_s;
   CompleteResult result = plan_complete(instance, options);
   if (result.status == LacamStatus::kSolved) {
@@ -82,8 +82,8 @@ TEST(CompletePlanner, AGoalBehindAWallIsUnreachable) {
 }
 
 TEST(CompletePlanner, LimitsEndTheSearch) {
-  CompleteOptions options;
-  options.max_steps = 1;
+  PlannerOptions options;
+  options.max_expansions = 1;
   const Instance instance = instance_of(5, 1, {{{0, 0}, {4, 0}}});
   EXPECT_EQ(plan_complete(instance, options).status, LacamStatus::kLimit);
 }

@@ -90,7 +90,7 @@ TEST(IoBrokenFeatures, EachIsOneLine) {
       {">0.5<", ">-0.5<", "f:12: <waitbeforemove> '-0.5', expected seconds from 0 to 100"},
       {">0.25<", ">101<", "f:13: <inflatecollisionintervals> '101', expected cells from 0 to 100"},
       {">0.125<", ">inf<", "f:14: <inflatecollisiontime> 'inf', expected seconds from 0 to 100"},
-      {">60<", ">0<", "f:15: <timelimit> '0', expected seconds above 0, or -1 for no limit"},
+      {">60<", ">0<", "f:15: <timelimit> '0', expected a number of seconds > 0, or inf"},
   };
   for (const Break& change : kBreaks) EXPECT_EQ(complaint(broken(change)), change.message);
 }
@@ -113,8 +113,9 @@ TEST(IoBrokenFeatures, MisspeltTagsAndAttributesAreRefusedIfTheyCouldChangeThePr
 TEST(IoBrokenFeatures, TheInflationTagIsADistanceAsThePublishedPlannerHasIt) {
   const Input<InstanceParts> parts = parse_xml_instance(kEverything, "f");
   ASSERT_TRUE(parts);
-  EXPECT_EQ(parts->options->options.inflate_distance_cells, 0.25);
-  EXPECT_EQ(parts->options->options.inflate_time_s, 0.125);
+  const MotionRules rules = parts->options->options.applied_to({}).rules;
+  EXPECT_EQ(rules.inflate_distance_cells, 0.25);
+  EXPECT_EQ(rules.inflate_time_s, 0.125);
 }
 
 }  // namespace

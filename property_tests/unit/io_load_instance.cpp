@@ -90,34 +90,23 @@ TEST_F(IoLoadInstance, AllInOneFile) {
       (DynamicObstacle{"cart", 0.25, {{3, 0}, {{0, 1.5, {3, 0}, {3, 0}}, {1.5, 5.5, {3, 0}, {3, 2}}}}}));
   EXPECT_EQ(instance.obstacles[1].radius_cells, 0.3);
 
-  FileOptions expected;
+  PlannerOptions expected;
   expected.any_angle = false;
   expected.connectedness = 4;
-  expected.rescheduling = Rescheduling::kDeterministic;
   expected.order = InitialOrder::kLongestFirst;
   expected.ssi_s = 2.5;
   expected.time_limit_s = std::numeric_limits<double>::infinity();
-  expected.turns = true;
-  expected.wait_before_move_s = 0.5;
-  expected.inflate_distance_cells = 0;
-  expected.log_level = 1;
-  EXPECT_EQ(loaded->options, expected);
+  expected.rules.turns = true;
+  expected.rules.wait_before_move_s = 0.5;
   PlannerOptions options;
-  apply(loaded->options, options);
-  EXPECT_EQ(options.ssi_s, 2.5);
-  EXPECT_EQ(options.connectedness, 4);
-  EXPECT_FALSE(options.any_angle);
-  MotionRules rules;
-  rules.turns = true;
-  rules.wait_before_move_s = 0.5;
-  EXPECT_EQ(options.rules, rules);
+  options.rescheduling = Rescheduling::kRandom;
+  EXPECT_EQ(loaded->options.applied_to(options), expected);
 }
 
 TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {
   const Input<LoadedInstance> whole = load_instance(just(kData + "corridor.xml"));
   ASSERT_TRUE(whole) << whole.error().message();
-  PlannerOptions options;
-  apply(whole->options, options);
+  PlannerOptions options = whole->options.applied_to({});
   options.weight = 1.25;
 
   InstanceFiles parts;
@@ -129,15 +118,7 @@ TEST_F(IoLoadInstance, WrittenInPartsItLoadsAsItWas) {
   ASSERT_TRUE(joined) << joined.error().message();
   EXPECT_TRUE(joined->warnings.empty()) << joined->warnings.front();
   EXPECT_EQ(joined->instance, whole->instance);
-  PlannerOptions again;
-  apply(joined->options, again);
-  EXPECT_EQ(again.any_angle, options.any_angle);
-  EXPECT_EQ(again.connectedness, options.connectedness);
-  EXPECT_EQ(again.weight, 1.25);
-  EXPECT_EQ(again.rescheduling, options.rescheduling);
-  EXPECT_EQ(again.order, options.order);
-  EXPECT_EQ(again.ssi_s, options.ssi_s);
-  EXPECT_EQ(again.time_limit_s, options.time_limit_s);
+  EXPECT_EQ(joined->options.applied_to({}), options);
 }
 
 TEST_F(IoLoadInstance, OlderXmlOfTheArchive) {
@@ -146,7 +127,7 @@ TEST_F(IoLoadInstance, OlderXmlOfTheArchive) {
   EXPECT_TRUE(loaded->warnings.empty());
   EXPECT_EQ(loaded->instance.agents.size(), 2u);
   EXPECT_TRUE(loaded->instance.map.is_blocked({2, 1}));
-  EXPECT_EQ(loaded->options.any_angle, true);
+  EXPECT_TRUE(loaded->options.states("any-angle") && loaded->options.applied_to({}).any_angle);
 }
 
 TEST_F(IoLoadInstance, AScenarioBringsItsMap) {
@@ -197,7 +178,7 @@ TEST_F(IoLoadInstance, AnyFormatsGoTogether) {
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_EQ(loaded->instance.map.width(), 5);
   EXPECT_EQ(loaded->instance.agents.size(), 1u);
-  EXPECT_EQ(loaded->options.connectedness, 3);
+  EXPECT_EQ(loaded->options.applied_to({}).connectedness, 3);
   EXPECT_EQ(loaded->instance.obstacles.size(), 2u);
 
   files.task = kData + "scen/notch.scen";
@@ -217,7 +198,7 @@ TEST_F(IoLoadInstance, AFileGivenForAPartGoesBeforeTheInstance) {
   const Input<LoadedInstance> loaded = load_instance(files);
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_EQ(loaded->instance.agents.size(), 2u);
-  EXPECT_EQ(loaded->options.connectedness, 4);
+  EXPECT_EQ(loaded->options.applied_to({}).connectedness, 4);
 }
 
 TEST_F(IoLoadInstance, OnlyTheFirstAgents) {

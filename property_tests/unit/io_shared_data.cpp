@@ -8,7 +8,7 @@
 
 #include "planner/io/load_instance.hpp"
 #include "planner/io/solution_io.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab {
@@ -108,8 +108,7 @@ TEST(IoSharedData, ExamplesPlanWithTurnsAndNoWorseThanTheirLogs) {
   if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder << " (set SIPPLAB_SHARED)";
   const Input<LoadedInstance> loaded = load(folder / "all_in_one_example.xml");
   ASSERT_TRUE(loaded) << loaded.error().message();
-  PlannerOptions options;
-  apply(loaded->options, options);
+  const PlannerOptions options = loaded->options.applied_to({});
   EXPECT_TRUE(options.rules.turns);
   const PlanResult result = plan(loaded->instance, options);
   ASSERT_EQ(result.status, PlanStatus::kSolved);

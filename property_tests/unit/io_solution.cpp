@@ -238,8 +238,9 @@ TEST(IoSolution, JsonIsTheDocumentedDocument) {
   EXPECT_EQ(keys, (std::vector<std::string>{
                       "status",    "valid",         "robots",      "makespan",         "flowtime",
                       "tries",     "expansions",    "generations", "planning_seconds", "plan_hash",
-                      "order",     "trajectories",  "ssi",         "reschedule",       "initial_order",
-                      "any_angle", "connectedness", "seed",        "made_by",          "ssi_kept"}));
+                      "order",     "trajectories",  "ssi",         "initial_order",    "reschedule",
+                      "any_angle", "connectedness", "seed",        "time_limit",       "made_by",
+                      "ssi_kept"}));
   EXPECT_EQ(document["trajectories"][0]["id"], 0);
   EXPECT_EQ(document["trajectories"][2]["id"], "007");
   EXPECT_EQ(document["trajectories"][2].dump(), R"({"id":"007","radius":0.4,"speed":2,"motions":[]})");
@@ -319,7 +320,7 @@ TEST(IoSolution, XmlHoldsTheInstanceAsWell) {
   EXPECT_TRUE(parts->warnings.empty());
   EXPECT_EQ(parts->map->map, instance.map);
   EXPECT_EQ(parts->agents->items, instance.agents);
-  EXPECT_EQ(parts->options->options.ssi_s, 2.5);
+  EXPECT_EQ(parts->options->options.applied_to({}).ssi_s, 2.5);
 }
 
 TEST(IoSolution, PublishedLogsAreSummedUpAndStraightSectionsMadeExact) {

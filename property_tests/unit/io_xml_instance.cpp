@@ -165,7 +165,9 @@ TEST(IoXmlInstance, OptionsKeepRealNumbers) {
               "<rescheduling>no</rescheduling><prioritization>shortest_first</prioritization></algorithm>"),
       "f");
   ASSERT_TRUE(parts) << parts.error().message();
-  const FileOptions& options = parts->options->options;
+  PlannerOptions before;
+  before.any_angle = false;
+  const PlannerOptions options = parts->options->options.applied_to(before);
   EXPECT_EQ(options.ssi_s, 2.5);
   EXPECT_EQ(options.time_limit_s, 0.25);
   EXPECT_EQ(options.rescheduling, Rescheduling::kNone);
@@ -179,29 +181,29 @@ TEST(IoXmlInstance, InfinityHasItsWords) {
           "<algorithm><startsafeinterval>infinity</startsafeinterval><timelimit>-1</timelimit></algorithm>"),
       "f");
   ASSERT_TRUE(parts);
-  EXPECT_EQ(parts->options->options.ssi_s, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(parts->options->options.time_limit_s, std::numeric_limits<double>::infinity());
+  const PlannerOptions options = parts->options->options.applied_to({});
+  EXPECT_EQ(options.ssi_s, kInfiniteSsi);
+  EXPECT_EQ(options.time_limit_s, std::numeric_limits<double>::infinity());
 }
 
 TEST(IoXmlInstance, BadOptionsNameTheirLine) {
   const auto option_error = [](const std::string& tag, const std::string& value) {
     return error_of(in_root("<algorithm>\n<" + tag + ">" + value + "</" + tag + "></algorithm>"));
   };
-  EXPECT_EQ(option_error("allowanyangle", "yes"), "f:3: <allowanyangle> 'yes', expected true or false");
+  EXPECT_EQ(option_error("allowanyangle", "maybe"), "f:3: <allowanyangle> 'maybe', expected true or false");
   EXPECT_EQ(option_error("connectedness", "6"), "f:3: <connectedness> '6', expected 2, 3, 4 or 5");
-  EXPECT_EQ(option_error("connectedness", "2.5"), "f:3: <connectedness> '2.5', expected an integer");
+  EXPECT_EQ(option_error("connectedness", "2.5"), "f:3: <connectedness> '2.5', expected 2, 3, 4 or 5");
   EXPECT_EQ(option_error("weight", "0.5"), "f:3: <weight> '0.5', expected a number from 1 to 100");
   EXPECT_EQ(option_error("startsafeinterval", "-1"),
-            "f:3: <startsafeinterval> '-1', expected seconds from 0 to 1e7, or infinity");
-  EXPECT_EQ(option_error("timelimit", "0"),
-            "f:3: <timelimit> '0', expected seconds above 0, or -1 for no limit");
+            "f:3: <startsafeinterval> '-1', expected seconds from 0 to 1e+07, or inf");
+  EXPECT_EQ(option_error("timelimit", "0"), "f:3: <timelimit> '0', expected a number of seconds > 0, or inf");
   EXPECT_EQ(option_error("waitbeforemove", "101"),
             "f:3: <waitbeforemove> '101', expected seconds from 0 to 100");
-  EXPECT_EQ(
-      option_error("rescheduling", "rules"),
-      "f:3: <rescheduling> 'rules', expected one of deterministic, ejection, no, none, random, rulebased");
+  EXPECT_EQ(option_error("rescheduling", "rules"),
+            "f:3: <rescheduling> 'rules', expected none, deterministic, random or ejection");
   EXPECT_EQ(option_error("prioritization", ""),
-            "f:3: <prioritization> '', expected one of fifo, longest_first, random, shortest_first");
+            "f:3: <prioritization> '', expected fifo, shortest, longest or random");
+  EXPECT_EQ(option_error("method", "greedy"), "f:3: <method> 'greedy', expected prioritized or complete");
 }
 
 TEST(IoXmlInstance, BadObstaclesNameTheirLine) {

@@ -2,7 +2,7 @@
 // priority without being on it: only robots wider than a cell can be in that position.
 #include <gtest/gtest.h>
 
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab {

@@ -7,6 +7,7 @@
 
 #include "planner/io/case_codec.hpp"
 #include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/solve/plan.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab {

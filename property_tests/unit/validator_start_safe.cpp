@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/prioritized/options.hpp"
+#include "planner/options/options.hpp"
 #include "planner/validator/validator.hpp"
 
 namespace sipplab {

@@ -9,6 +9,7 @@
 #include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "planner/solution/solution.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace sipplab {
 namespace {

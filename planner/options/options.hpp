@@ -1,4 +1,5 @@
-// Options of a run of prioritized planning, and their names as users write them.
+// What a user may choose of a plan: values, bounds and defaults. option_table.hpp has a row for each, from
+// which come flags, files and columns.
 #pragma once
 
 #include <atomic>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/instance/motion_rules.hpp"
 
@@ -41,10 +43,6 @@ std::string_view name(InitialOrder order);
 std::string_view name(Rescheduling rescheduling);
 std::string_view name(Method method);
 std::string_view name(Fallback fallback);
-std::optional<InitialOrder> parse_initial_order(std::string_view text);
-std::optional<Rescheduling> parse_rescheduling(std::string_view text);
-std::optional<Method> parse_method(std::string_view text);
-std::optional<Fallback> parse_fallback(std::string_view text);
 
 inline constexpr double kInfiniteSsi = std::numeric_limits<double>::infinity();
 /// Longest finite start-safe interval, in seconds, on the command line and in files: at 1e7 s a double tells
@@ -56,34 +54,77 @@ inline bool is_ssi(double ssi_s) { return (ssi_s >= 0 && ssi_s <= kMaxSsiS) || s
 inline constexpr double kDefaultSsi = 5;
 /// Wall-clock seconds; the paper used five minutes.
 inline constexpr double kDefaultTimeLimitS = 300;
+/// Largest weight of the heuristic: nobody asks for a path a hundred times as long.
+inline constexpr double kMaxWeight = 100;
+/// Most threads of an improvement: each holds a copy of the plan.
+inline constexpr unsigned kMostThreads = 64;
 
 /// "5", "2.5", "inf", "infinity": a real number >= 0, or infinity.
 std::optional<double> parse_ssi(std::string_view text);
 /// Shortest text that parse_ssi reads back as the same value; "inf" for infinity.
 std::string format_ssi(double ssi);
 
-/// Largest weight of the heuristic: nobody asks for a hundred times the way.
-inline constexpr double kMaxWeight = 100;
+/// What improvement minimises: a weighted sum of flowtime and makespan; of two plans with the same sum the
+/// one with the lesser flowtime is better, then the one with the lesser makespan.
+struct Objective {
+  double flowtime_weight = 1;  ///< >= 0; not both are 0
+  double makespan_weight = 0;  ///< >= 0
+
+  double of(double flowtime_s, double makespan_s) const {
+    return flowtime_weight * flowtime_s + makespan_weight * makespan_s;
+  }
+  friend bool operator==(const Objective&, const Objective&) = default;
+};
+
+/// "flowtime", "makespan", or weights of both: "1:20" is flowtime + 20 makespan.
+std::optional<Objective> parse_objective(std::string_view text);
+/// Shortest text that parse_objective reads back as the same value.
+std::string format_objective(const Objective& objective);
+
+/// How long to improve. At most one of the two is a limit.
+struct ImproveBudget {
+  double seconds = std::numeric_limits<double>::infinity();  ///< wall clock
+  std::uint64_t iterations = UINT64_MAX;
+
+  friend bool operator==(const ImproveBudget&, const ImproveBudget&) = default;
+};
+
+/// "30", "30s": seconds > 0; "500i": iterations > 0.
+std::optional<ImproveBudget> parse_improve_budget(std::string_view text);
+/// "30s" or "500i"; parse_improve_budget reads it back as the same value.
+/// REQUIRES: one of the two is a limit.
+std::string format_improve_budget(const ImproveBudget& budget);
 
 struct PlannerOptions {
+  double ssi_s = kDefaultSsi;  ///< start-safe interval; 0 turns it off
+  /// Escalation: longer start-safe intervals, tried in turn where the one before them fails.
+  std::vector<double> longer_ssi_s;
   InitialOrder order = InitialOrder::kShortestFirst;
   Rescheduling rescheduling = Rescheduling::kDeterministic;
-  double ssi_s = kDefaultSsi;  ///< start-safe interval; 0 turns it off
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours, k = 2..5
   double weight = 1;      ///< of the heuristic, 1 to kMaxWeight: see SippOptions
+  MotionRules rules;      ///< turns, delays, inflation; none by default
   std::uint64_t seed = 1;
-  MotionRules rules;  ///< turns, delays, inflation; none by default
 
-  double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
   std::uint64_t max_expansions = UINT64_MAX;  ///< over all tries
   std::uint64_t max_restarts = UINT64_MAX;    ///< tries after the first; ejections count as tries
+  double time_limit_s = kDefaultTimeLimitS;   ///< wall clock; infinity for none
   /// Set from outside, by a signal for one: ends planning as the time limit does.
   const std::atomic<bool>* stop = nullptr;
 
   Method method = Method::kPrioritized;
   /// The limits hold for it anew: it begins where they have struck.
   Fallback fallback = Fallback::kNone;
+
+  /// All methods in turn, then improvement for what is left of the time limit.
+  bool best = false;
+  /// Improvement of the plan; none: no improvement, or with `best` until the time limit.
+  std::optional<ImproveBudget> improve;
+  Objective objective;
+  unsigned threads = 1;  ///< of improvement; the result does not depend on how many
+
+  friend bool operator==(const PlannerOptions&, const PlannerOptions&) = default;
 };
 
 }  // namespace sipplab

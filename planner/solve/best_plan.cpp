@@ -1,12 +1,14 @@
-#include "planner/portfolio/best_plan.hpp"
+#include "planner/solve/best_plan.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "planner/solution/solution.hpp"
+#include "planner/solve/solve.hpp"
 
 namespace sipplab {
 namespace {
@@ -29,18 +31,20 @@ constexpr double kShareBeforeImprovement = 0.3;
 
 class BestPlan {
  public:
-  BestPlan(const Instance& instance, const BestOptions& options)
+  BestPlan(const Instance& instance, const PlannerOptions& options)
       : instance_(instance),
         options_(options),
-        has_fallback_(!find_beyond_complete(instance, options.planner.rules)),
-        begin_(Clock::now()) {}
+        longer_ssi_s_(std::exchange(options_.longer_ssi_s, {})),
+        has_fallback_(!find_beyond_complete(instance, options.rules)),
+        begin_(Clock::now()) {
+    if (longer_ssi_s_.empty()) longer_ssi_s_.assign(std::begin(kLongerSsiS), std::end(kLongerSsiS));
+  }
 
-  BestResult run() {
-    const PlannerOptions& planner = options_.planner;
-    if (has_fallback_) fall_back(kFirstPlanSteps, planner.time_limit_s * kShareOfFirstPlan);
+  SolveResult run() {
+    if (has_fallback_) fall_back(kFirstPlanSteps, options_.time_limit_s * kShareOfFirstPlan);
     const bool is_found =
-        take(BestStep::Kind::kMethod, planner.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
-        take(BestStep::Kind::kEjection, planner.ssi_s) || escalate(BestStep::Kind::kEjection);
+        take(BestStep::Kind::kMethod, options_.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
+        take(BestStep::Kind::kEjection, options_.ssi_s) || escalate(BestStep::Kind::kEjection);
     if (!is_found && fallback_.status == PlanStatus::kLimit) {
       fall_back(UINT64_MAX, time_left_s());
     }
@@ -51,7 +55,7 @@ class BestPlan {
 
  private:
   double seconds() const { return seconds_since(begin_); }
-  double time_left_s() const { return options_.planner.time_limit_s - seconds(); }
+  double time_left_s() const { return options_.time_limit_s - seconds(); }
 
   /// Until improvement must have its turn, or the complete planner again; without either all
   /// of the time is for the other steps.
@@ -59,11 +63,11 @@ class BestPlan {
     double share = 1;
     if (fallback_.status == PlanStatus::kSolved) share = kShareBeforeImprovement;
     if (fallback_.status == PlanStatus::kLimit) share = kShareBeforeImprovement + kShareOfFirstPlan;
-    return options_.planner.time_limit_s * share - seconds();
+    return options_.time_limit_s * share - seconds();
   }
 
   bool escalate(BestStep::Kind kind) {
-    return std::any_of(options_.longer_ssi_s.begin(), options_.longer_ssi_s.end(),
+    return std::any_of(longer_ssi_s_.begin(), longer_ssi_s_.end(),
                        [this, kind](double ssi_s) { return take(kind, ssi_s); });
   }
 
@@ -85,7 +89,7 @@ class BestPlan {
   /// one always can, others only where something is left of every limit.
   std::optional<PlannerOptions> options_of(BestStep::Kind kind, double ssi_s) const {
     const bool is_first = planned_.trace.empty();
-    PlannerOptions step = options_.planner;
+    PlannerOptions step = options_;
     step.ssi_s = ssi_s;
     step.fallback = Fallback::kNone;
     if (!is_first) {
@@ -111,7 +115,7 @@ class BestPlan {
 
   /// The complete planner, which has the counts of the limits for itself.
   void fall_back(std::uint64_t most_steps, double time_limit_s) {
-    PlannerOptions step = options_.planner;
+    PlannerOptions step = options_;
     step.method = Method::kComplete;
     step.max_expansions = std::min(step.max_expansions, most_steps);
     step.time_limit_s = time_limit_s;
@@ -139,21 +143,22 @@ class BestPlan {
   }
 
   void improve_it() {
-    ImproveOptions improving = improve_options(options_.planner, result_.plan);
-    improving.objective = options_.objective;
-    improving.max_iterations = options_.max_iterations;
-    improving.threads = options_.threads;
-    improving.time_limit_s = std::min(options_.improve_time_limit_s, time_left_s());
+    PlannerOptions improving = options_;
+    improving.ssi_s = result_.plan.ssi_kept_s;
+    ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    budget.seconds = std::min(budget.seconds, time_left_s());
+    improving.improve = budget;
     result_.improvement = improve(instance_, result_.plan.solution, result_.plan.order(), improving);
   }
 
   const Instance& instance_;
-  const BestOptions& options_;
+  PlannerOptions options_;  ///< without longer intervals, which are steps of their own
+  std::vector<double> longer_ssi_s_;
   bool has_fallback_;  ///< whether the complete planner knows such instances
   Clock::time_point begin_;
   PlanResult fallback_;  ///< of the complete planner; failed where it was not asked
   PlanResult planned_;   ///< of the other steps
-  BestResult result_;
+  SolveResult result_;
 };
 
 }  // namespace
@@ -172,7 +177,7 @@ std::string_view name(BestStep::Kind kind) {
   return "unknown";
 }
 
-BestResult plan_best(const Instance& instance, const BestOptions& options) {
+SolveResult best_plan(const Instance& instance, const PlannerOptions& options) {
   return BestPlan(instance, options).run();
 }
 

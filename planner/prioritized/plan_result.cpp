@@ -1,0 +1,17 @@
+#include "planner/prioritized/plan_result.hpp"
+
+namespace sipplab {
+
+std::string_view name(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kSolved:
+      return "solved";
+    case PlanStatus::kFailed:
+      return "failed";
+    case PlanStatus::kLimit:
+      return "limit";
+  }
+  return "unknown";
+}
+
+}  // namespace sipplab

@@ -1,0 +1,49 @@
+// What a run of planning gave.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "planner/options/options.hpp"
+#include "planner/prioritized/priority_order.hpp"
+#include "planner/search/single_agent_planner.hpp"
+#include "planner/solution/solution.hpp"
+
+namespace sipplab {
+
+/// One pass over an order; by ejection, the planning of robots until one fails.
+struct Try {
+  /// By ejection only the last try has one: the final order, or the first where none was found.
+  PriorityOrder order;
+  std::optional<AgentIndex> failed;  ///< the agent for which no trajectory was found
+  std::vector<AgentIndex> ejected;   ///< by ejection: those that made room for it
+};
+
+enum class PlanStatus {
+  kSolved,
+  kFailed,  ///< the method ended without a solution
+  kLimit,   ///< a limit ended it first: the outcome is censored
+};
+/// "solved", "failed", "limit".
+std::string_view name(PlanStatus status);
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kFailed;
+  Solution solution;  ///< all trajectories when solved, else empty
+  /// Every try in turn; the last one has the final order.
+  std::vector<Try> trace;
+  Method made_by = Method::kPrioritized;  ///< who made the plan, or failed last
+  SearchStatistics statistics;            ///< over all tries
+  double ssi_s = 0;                       ///< start-safe interval that the last try was to keep
+  /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. As
+  /// long as it was to be kept, except for plans of the complete planner, which makes them
+  /// first and then looks for the order that keeps the promise the longest.
+  double ssi_kept_s = 0;
+  double planning_seconds = 0;  ///< wall clock, planning alone
+
+  std::size_t tries() const { return trace.size(); }
+  const PriorityOrder& order() const { return trace.back().order; }
+};
+
+}  // namespace sipplab

@@ -1,0 +1,48 @@
+// The whole pipeline behind one call: a first plan or the best that all methods give, then improvement.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/improve/improve.hpp"
+#include "planner/solve/best_plan.hpp"
+#include "planner/solve/plan.hpp"
+#include "planner/validator/validator.hpp"
+
+namespace sipplab {
+
+struct SolveResult {
+  PlanResult plan;              ///< before improvement
+  std::vector<BestStep> steps;  ///< of options.best
+  /// None where there is no plan, or nobody asked for it.
+  std::optional<ImproveResult> improvement;
+
+  bool is_solved() const { return plan.status == PlanStatus::kSolved; }
+  const Solution& solution() const { return improvement ? improvement->solution : plan.solution; }
+  /// The final order; where the plan keeps the promise of start-safe intervals in none, the one
+  /// in which robots were planned.
+  const PriorityOrder& order() const {
+    return improvement && improvement->order ? *improvement->order : plan.order();
+  }
+  /// How long it keeps starts safe, in that order; 0 where it promises nothing of them.
+  double ssi_kept_s() const { return improvement && !improvement->log.keeps_promise ? 0 : plan.ssi_kept_s; }
+  /// What the validator is to check of a plan that was made under these rules.
+  ValidationOptions promises(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
+  /// Wall clock, planning and improving.
+  double seconds() const {
+    return plan.planning_seconds + (improvement ? improvement->log.curve.back().seconds : 0);
+  }
+  SearchStatistics statistics() const;
+};
+
+/// Why options and instance do not go together, in one line: the complete planner knows neither moving
+/// obstacles nor different speeds, for example, and ejection and improvement nothing of inflated distances
+/// and times.
+std::optional<std::string> find_beyond(const Instance& instance, const PlannerOptions& options);
+
+/// Plans as the options say; where they ask for it, all methods in turn, and improvement of the plan.
+/// REQUIRES: !find_error(instance) and !find_beyond(instance, options).
+SolveResult solve(const Instance& instance, const PlannerOptions& options);
+
+}  // namespace sipplab
