@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -15,6 +14,7 @@
 #include "db/rows.hpp"
 #include "db/sqlite/handle.hpp"
 #include "db/statistics/sqlite_functions.hpp"
+#include "planner/core/number.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -159,20 +159,14 @@ Result<std::string> run_parameter(Database& database, std::string_view name, con
 }
 
 void bind_text_or_number(sqlite3_stmt* statement, int index, const std::string& text) {
-  std::int64_t whole = 0;
-  const char* end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, whole);
-  if (parsed.ec == std::errc{} && parsed.ptr == end) {
-    sqlite3_bind_int64(statement, index, whole);
-    return;
+  const auto real = parse_number<double>(text);
+  if (const auto whole = parse_number<std::int64_t>(text)) {
+    sqlite3_bind_int64(statement, index, *whole);
+  } else if (real && !std::isnan(*real)) {
+    sqlite3_bind_double(statement, index, *real);
+  } else {
+    sqlite3_bind_text(statement, index, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
   }
-  double real = 0;
-  const auto parsed_real = std::from_chars(text.data(), end, real);
-  if (parsed_real.ec == std::errc{} && parsed_real.ptr == end && !std::isnan(real)) {
-    sqlite3_bind_double(statement, index, real);
-    return;
-  }
-  sqlite3_bind_text(statement, index, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
 }
 
 Result<Done> bind_parameters(Database& database, sqlite3_stmt* statement, const Parameters& given) {

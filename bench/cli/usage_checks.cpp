@@ -1,13 +1,13 @@
 #include "bench/cli/usage_checks.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "planner/core/number.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
@@ -36,10 +36,8 @@ struct NamedFile {
 };
 
 std::string check_count(const std::string& text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool fits = error == std::errc() && end == text.data() + text.size();
-  return fits ? "" : in_quotes(text) + ", expected a whole number >= 0 of 64 bits";
+  return parse_number<std::uint64_t>(text) ? ""
+                                           : in_quotes(text) + ", expected a whole number >= 0 of 64 bits";
 }
 
 bool has_name(const CLI::Option& option, std::string_view name) {

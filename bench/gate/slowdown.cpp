@@ -1,10 +1,11 @@
 #include "bench/gate/slowdown.hpp"
 
-#include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <string_view>
 #include <system_error>
+
+#include "planner/core/number.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -16,12 +17,7 @@ constexpr double kLargestShare = 1000;
 template <class Number>
 std::optional<Number> number_in(const char* variable) {
   const char* value = std::getenv(variable);
-  if (value == nullptr) return std::nullopt;
-  const std::string_view text(value);
-  Number number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return value == nullptr ? std::nullopt : parse_number<Number>(value);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "bench/sweep/run_instance.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "bench/sweep/instruction_count.hpp"
+#include "planner/core/number.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -27,11 +27,7 @@ db::ResultStatus row_status(PlanStatus status) {
 std::optional<std::uint64_t> leading_bits(std::string_view hexadecimal) {
   constexpr std::size_t kDigits = 16;
   constexpr int kBase = 16;
-  std::uint64_t bits = 0;
-  const std::string_view digits = hexadecimal.substr(0, kDigits);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bits, kBase);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  return bits;
+  return parse_number<std::uint64_t>(hexadecimal.substr(0, kDigits), kBase);
 }
 
 std::string limit_struck(const PlanResult& result, const PlannerOptions& options) {

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,6 +19,7 @@
 #include "fuzz/replay/judge.hpp"
 #include "fuzz/replay/mutation_loop.hpp"
 #include "fuzz/support/target.hpp"
+#include "planner/core/number.hpp"
 #include "property_tests/support/text_reducer.hpp"
 
 namespace {
@@ -52,9 +52,9 @@ struct Arguments {
 
 template <class Number>
 bool read_number(const char* text, Number& number) {
-  const char* end = text + std::strlen(text);
-  const auto [last, error] = std::from_chars(text, end, number);
-  return error == std::errc() && last == end;
+  const std::optional<Number> value = parse_number<Number>(text);
+  if (value) number = *value;
+  return value.has_value();
 }
 
 std::optional<Arguments> parse(int argc, char** argv) {

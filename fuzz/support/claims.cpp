@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -36,7 +35,8 @@ constexpr std::array<std::string_view, kEvents> kEventNames = {
     "starts protected", "obstacles", "mixed bodies", "comparisons",
 };
 constexpr std::size_t kCounts = kClaims + kEvents;
-static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free);
+// The compilers' own functions: libc++ before version 19 has no std::atomic_ref.
+static_assert(__atomic_always_lock_free(sizeof(std::uint64_t), nullptr));
 
 /// Rows of the file of the environment variable, or in memory that nobody reads.
 CountRow* map_rows() {
@@ -67,7 +67,7 @@ CountRow* named_rows() {
 
 void add_one(std::size_t index) {
   static CountRow* const rows = named_rows();
-  std::atomic_ref(rows[index].count).fetch_add(1, std::memory_order_relaxed);
+  __atomic_fetch_add(&rows[index].count, 1, __ATOMIC_RELAXED);
 }
 
 }  // namespace

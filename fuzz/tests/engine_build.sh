@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # The build script for distributed engines: two targets are built with the engine that is at
-# hand, and everything is there that an engine looks for. usage: engine_build.sh SCRIPT COMPILER
+# hand, and everything is there that an engine looks for. usage: engine_build.sh SCRIPT COMPILER [libc++]
+#
+# libc++: with that library, as OSS-Fuzz and ClusterFuzzLite build. It takes Clang 16 or later.
 set -euo pipefail
-script=$1
+script=$1 flags='-O0 -fsanitize=fuzzer-no-link' engine=-fsanitize=fuzzer
+if [ "${3:-}" = libc++ ]; then
+  flags+=' -stdlib=libc++'
+  engine+=' -Wl,--no-as-needed -l:libstdc++.so.6' # Debian's engine was built with that one
+fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/out"
 # Without optimisation and sanitizers: what is tested is the script.
-OUT=$folder/out WORK=$folder CXX=$2 CXXFLAGS="-O0 -fsanitize=fuzzer-no-link" LIB_FUZZING_ENGINE=-fsanitize=fuzzer \
+OUT=$folder/out WORK=$folder CXX=$2 CXXFLAGS=$flags LIB_FUZZING_ENGINE=$engine \
   "$script" parse_map_never_crashes plan_then_validate >"$folder/log" 2>&1 || { cat "$folder/log" && exit 1; }
 
 expect() { [ -e "$folder/out/$1" ] || { echo "no $1 in \$OUT, expected one" && ls "$folder/out" && exit 1; }; }

@@ -23,7 +23,7 @@ struct Footprint {
   };
   std::vector<RowSpan> rows;
 
-  friend auto operator<=>(const Footprint&, const Footprint&) = default;
+  friend bool operator<(const Footprint& a, const Footprint& b) { return a.rows < b.rows; }
 };
 
 /// How far the point `from` is from the interval [cell - 0.5, cell + 0.5] on one axis.

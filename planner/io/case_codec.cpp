@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "planner/core/number.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -30,9 +32,9 @@ class Words {
   }
   template <class Number>
   bool read(Number& number) {
-    const std::string_view word = next();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc() && !word.empty() && end == word.data() + word.size();
+    const std::optional<Number> value = parse_number<Number>(next());
+    if (value) number = *value;
+    return value.has_value();
   }
   bool read(Cell& cell) { return read(cell.x) && read(cell.y); }
 

@@ -7,21 +7,12 @@
 #include <cmath>
 
 #include "planner/core/assert.hpp"
+#include "planner/core/number.hpp"
 
 namespace sipplab {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
-
-template <class Number>
-std::optional<Number> parse_whole(std::string_view token) {
-  token = trimmed(token);
-  Number value{};
-  const char* const end = token.data() + token.size();
-  const auto [rest, status] = std::from_chars(token.data(), end, value);
-  if (status != std::errc{} || rest != end || token.empty()) return std::nullopt;
-  return value;
-}
 
 }  // namespace
 
@@ -31,11 +22,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-std::optional<std::int64_t> parse_integer(std::string_view token) { return parse_whole<std::int64_t>(token); }
+std::optional<std::int64_t> parse_integer(std::string_view token) {
+  return parse_number<std::int64_t>(trimmed(token));
+}
 
 std::optional<double> parse_real(std::string_view token) {
-  const std::optional<double> value = parse_whole<double>(token);
-  if (!value || !std::isfinite(*value)) return std::nullopt;  // from_chars reads "nan" and "inf"
+  const std::optional<double> value = parse_number<double>(trimmed(token));
+  if (!value || !std::isfinite(*value)) return std::nullopt;
   return value;
 }
 

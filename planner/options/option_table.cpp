@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <type_traits>
+
+#include "planner/core/number.hpp"
 
 namespace sipplab {
 namespace {
@@ -89,12 +90,9 @@ template <class Get>
 Option count(Option option, Get get, std::string expected, std::uint64_t least, std::uint64_t most) {
   using Value = std::decay_t<decltype(get(std::declval<PlannerOptions&>()))>;
   const auto read = [least, most](std::string_view text) -> std::optional<Value> {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
-      return std::nullopt;
-    }
-    return static_cast<Value>(value);
+    const auto value = parse_number<std::uint64_t>(text);
+    if (!value || *value < least || *value > most) return std::nullopt;
+    return static_cast<Value>(*value);
   };
   return row(std::move(option), OptionKind::kCount, std::move(expected), get, read,
              [](Value value) { return std::to_string(value); });

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "planner/core/number.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -14,12 +16,9 @@ constexpr double kMostIterations = 1e15;
 
 std::optional<double> parse_ssi(std::string_view text) {
   if (text == "inf" || text == "infinity") return kInfiniteSsi;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value < 0) {
-    return std::nullopt;
-  }
-  return value + 0.0;  // no negative zero
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !std::isfinite(*value) || *value < 0) return std::nullopt;
+  return *value + 0.0;  // no negative zero
 }
 
 std::string format_ssi(double ssi) {
