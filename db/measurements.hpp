@@ -33,7 +33,6 @@ struct MeasurementRun {
   std::string started_utc;
   RunInfo info;
   std::vector<Measurement> measurements;
-  std::vector<std::pair<std::string, std::string>> context;  ///< what else the report says of the whole run
 };
 
 struct MeasurementsRecorded {

@@ -276,12 +276,14 @@ db::RunInfo run_info(const Json& context, const ImportContext& given) {
   return info;
 }
 
-/// What --benchmark_context added, as text.
-std::vector<std::pair<std::string, std::string>> custom_context(const Json& context) {
-  std::vector<std::pair<std::string, std::string>> custom;
+/// What --benchmark_context added: "commit=abc1234 compiler=gcc".
+std::string custom_context(const Json& context) {
+  std::string custom;
   for (const auto& [member, value] : context.items()) {
     if (contains(kContextMembers, member)) continue;
-    custom.emplace_back(member, value.is_string() ? value.get<std::string>() : value.dump());
+    if (!custom.empty()) custom += ' ';
+    custom += member + "=";
+    custom += value.is_string() ? value.get<std::string>() : value.dump();
   }
   return custom;
 }
@@ -329,7 +331,7 @@ Expected<db::MeasurementRun, std::string> read_google_benchmark(const std::strin
   std::optional<std::string> commit;
   try {
     run.info = run_info(context, given);
-    run.context = custom_context(context);
+    run.info.options = custom_context(context);
     commit = commit_hash(context, given);
     run.started_utc = utc_of(context.value("date", ""));
     if (run.started_utc.empty())

@@ -138,8 +138,7 @@ TEST(Import, keeps_label_threads_and_custom_context) {
   ASSERT_TRUE(run) << run.error();
   EXPECT_EQ(run->measurements.at(0).label, "gcc -O3");
   EXPECT_EQ(run->measurements.at(0).threads, 4);
-  EXPECT_EQ(run->context, (std::vector<std::pair<std::string, std::string>>{
-                              {"commit", "abc1234"}, {"compiler", "gcc"}, {"nodes", "2"}}));
+  EXPECT_EQ(run->info.options, "commit=abc1234 compiler=gcc nodes=2");
   ASSERT_TRUE(run->info.commit);
   EXPECT_EQ(run->info.commit->hash, "abc1234");
 }

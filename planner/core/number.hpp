@@ -1,6 +1,8 @@
 // Numbers in texts.
 #pragma once
 
+#include <fast_float/fast_float.h>
+
 #include <charconv>
 #include <concepts>
 #include <optional>
@@ -9,9 +11,9 @@
 
 namespace sipplab {
 
-/// The number that the whole text is: digits, of reals a point and an exponent too, perhaps a minus before
-/// them. None for anything else, blanks and a plus sign among it, and where it does not fit. Of reals "inf"
-/// and "nan" are numbers. The same on every machine and with every standard library; linear.
+/// The number that the whole text is: digits, perhaps after a minus. None for anything else, blanks and a
+/// plus sign among it, and where it does not fit. The same on every machine and with every standard library;
+/// linear.
 template <std::integral Number>
 std::optional<Number> parse_number(std::string_view text, int base = 10) {
   Number value{};
@@ -20,9 +22,16 @@ std::optional<Number> parse_number(std::string_view text, int base = 10) {
   if (error != std::errc{} || rest != end) return std::nullopt;
   return value;
 }
-template <std::floating_point Number>
-std::optional<Number> parse_number(std::string_view text);
 
-extern template std::optional<double> parse_number<double>(std::string_view text);
+/// The same with a point and an exponent; "inf" and "nan" are numbers too. By a library: libc++ before
+/// version 20 has no std::from_chars for reals.
+template <std::floating_point Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = fast_float::from_chars(text.data(), end, value);
+  if (error != std::errc{} || rest != end || text.empty()) return std::nullopt;
+  return value;
+}
 
 }  // namespace sipplab
