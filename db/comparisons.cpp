@@ -254,8 +254,7 @@ Result<std::vector<PairedCell>> paired_cells(Database& database, const Compariso
   if (!base_cells) return Unexpected{base_cells.error()};
   const auto head_cells = newest_cells(database, head);
   if (!head_cells) return Unexpected{head_cells.error()};
-  auto select = Statement::prepare(
-      database.connection(), fmt::format("SELECT {} FROM case_ WHERE id = ?", kCaseColumns), kReadingRuns);
+  auto select = Statement::prepare(database.connection(), "SELECT * FROM case_ WHERE id = ?", kReadingRuns);
   if (!select) return Unexpected{select.error()};
   std::vector<PairedCell> cells;
   for (const auto& [case_key, base_cell] : *base_cells) {
@@ -278,9 +277,10 @@ Result<std::vector<PairedCell>> paired_cells(Database& database, const Compariso
   std::stable_sort(cells.begin(), cells.end(), [](const PairedCell& a, const PairedCell& b) {
     const CaseInfo& x = a.parameters;
     const CaseInfo& y = b.parameters;
-    return std::tie(x.environment, x.planner, x.any_angle, x.connectedness, x.order, x.reschedule, x.ssi_s,
-                    x.robots, x.seed) < std::tie(y.environment, y.planner, y.any_angle, y.connectedness,
-                                                 y.order, y.reschedule, y.ssi_s, y.robots, y.seed);
+    return std::tie(x.environment, x.planner, x.option("initial_order"), x.option("reschedule"),
+                    x.option("ssi_s"), x.robots,
+                    x.options) < std::tie(y.environment, y.planner, y.option("initial_order"),
+                                          y.option("reschedule"), y.option("ssi_s"), y.robots, y.options);
   });
   return cells;
 }

@@ -120,19 +120,18 @@ Result<std::string> record_gate_run(Database& database, GateRun run) {
 Result<std::vector<GateNoise>> gate_noise(Database& database, const GateKind& kind) {
   // Enough for a quantile, few enough to follow a machine that changes.
   constexpr std::int64_t kNewest = 20;
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format("SELECT gate_cell.id, gate_cell.case_id, gate_pair.slowdown, {} FROM gate_cell "
-                  "JOIN gate_pair ON gate_pair.gate_cell_id = gate_cell.id AND gate_pair.stage = 1 "
-                  "LEFT JOIN case_ ON case_.id = gate_cell.case_id "
-                  "WHERE gate_cell.gate_run_id IN (SELECT gate_run.id FROM gate_run "
-                  "  JOIN run ON run.id = gate_run.run_id JOIN machine ON machine.id = run.machine_id "
-                  "  WHERE machine.fingerprint = ? AND run.suite = ? AND gate_run.method = ? "
-                  "    AND gate_run.pair_seconds = ? AND gate_run.kind = 'calibration' "
-                  "    AND run.excluded_reason IS NULL ORDER BY run.started_utc DESC LIMIT ?) "
-                  "ORDER BY gate_cell.case_id, gate_cell.id, gate_pair.pair",
-                  kCaseColumns),
-      "reading the noise of this machine");
+  auto select =
+      Statement::prepare(database.connection(),
+                         "SELECT gate_cell.id, gate_cell.case_id, gate_pair.slowdown, case_.* FROM gate_cell "
+                         "JOIN gate_pair ON gate_pair.gate_cell_id = gate_cell.id AND gate_pair.stage = 1 "
+                         "LEFT JOIN case_ ON case_.id = gate_cell.case_id "
+                         "WHERE gate_cell.gate_run_id IN (SELECT gate_run.id FROM gate_run "
+                         "  JOIN run ON run.id = gate_run.run_id JOIN machine ON machine.id = run.machine_id "
+                         "  WHERE machine.fingerprint = ? AND run.suite = ? AND gate_run.method = ? "
+                         "    AND gate_run.pair_seconds = ? AND gate_run.kind = 'calibration' "
+                         "    AND run.excluded_reason IS NULL ORDER BY run.started_utc DESC LIMIT ?) "
+                         "ORDER BY gate_cell.case_id, gate_cell.id, gate_pair.pair",
+                         "reading the noise of this machine");
   if (!select) return Unexpected{select.error()};
   select->bind(fingerprint(kind.machine), kind.suite, kind.method, kind.pair_seconds, kNewest);
   std::vector<GateNoise> noise;

@@ -34,15 +34,17 @@ RunSummary read_run(const Statement& row) {
 CellSummary read_cell(const Statement& row) {
   CellSummary cell;
   read_row(row, [&cell](auto visit) { CellSummary::columns(cell, visit); });
+  cell.parameters = read_case(row, row.column("id"));
   return cell;
 }
 
 Result<std::vector<CellSummary>> cells_of(Database& database, const std::string& uuid) {
-  auto select = Statement::prepare(
-      database.connection(),
-      "SELECT * FROM v_run_cells WHERE run = ? ORDER BY environment, planner, any_angle, connectedness, "
-      "initial_order, reschedule, ssi_s, robots, case_id",
-      "reading the cells of a run");
+  auto select = Statement::prepare(database.connection(),
+                                   "SELECT cell.*, case_.* FROM v_run_cells AS cell JOIN case_ ON case_.id = "
+                                   "cell.case_id WHERE cell.run = ? "
+                                   "ORDER BY cell.environment, cell.planner, cell.initial_order, "
+                                   "cell.reschedule, cell.ssi_s, cell.robots, id",
+                                   "reading the cells of a run");
   if (!select) return Unexpected{select.error()};
   select->bind(uuid);
   return select->collect(read_cell);

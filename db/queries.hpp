@@ -12,16 +12,10 @@
 
 #include "db/database.hpp"
 #include "db/error.hpp"
+#include "db/records.hpp"
 #include "db/table.hpp"
 
 namespace sipplab::db {
-
-/// SQL over a row with the columns of case_: its planner as tables show it, "any-angle-8+weight:1.05",
-/// "grid-4", "complete", "cmd:NAME".
-inline constexpr std::string_view kPlannerNameSql =
-    "CASE WHEN planner GLOB 'cmd:*' OR planner = 'complete' OR planner GLOB 'complete+*' THEN planner "
-    "ELSE iif(any_angle, 'any-angle-', 'grid-') || (1 << connectedness) || "
-    "iif(instr(planner, '+') > 0, substr(planner, instr(planner, '+')), '') END";
 
 /// One row of v_runs.
 struct RunSummary {
@@ -97,6 +91,7 @@ struct CellSummary {
   std::optional<double> median_flowtime_s;
   std::optional<double> mean_tries;
   std::optional<double> mean_expansions;
+  CaseInfo parameters;  ///< with all options
 
   template <class Self, class Visit>
   static void columns(Self&& self, Visit&& visit) {

@@ -67,10 +67,9 @@ Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const
 
 Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::string& run_uuid) {
   auto select = Statement::prepare(database.connection(),
-                                   fmt::format("SELECT {} FROM run JOIN cell ON cell.run_id = run.id "
-                                               "JOIN case_ ON case_.id = cell.case_id "
-                                               "WHERE run.uuid = ? ORDER BY cell.id",
-                                               kCaseColumns),
+                                   "SELECT case_.* FROM run JOIN cell ON cell.run_id = run.id "
+                                   "JOIN case_ ON case_.id = cell.case_id "
+                                   "WHERE run.uuid = ? ORDER BY cell.id",
                                    "reading finished cases");
   if (!select) return Unexpected{select.error()};
   select->bind(run_uuid);
@@ -172,7 +171,11 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
   if (is_finished(parameters)) {
     return Unexpected{bad_input(database_, fmt::format("run {} holds this case already", run_uuid_))};
   }
-  if (std::isnan(parameters.ssi_s) ||
+  const auto is_nan = [](const auto& option) {
+    const double* real = std::get_if<double>(&option.second);
+    return real != nullptr && std::isnan(*real);
+  };
+  if (std::any_of(parameters.options.begin(), parameters.options.end(), is_nan) ||
       std::any_of(results.begin(), results.end(), [](const auto& result) { return has_nan(result.row); })) {
     return Unexpected{bad_input(database_, "NaN in a result, expected a number")};
   }

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "db/table.hpp"
 
 namespace sipplab::db {
 
@@ -82,18 +86,17 @@ struct CaseInfo {
   std::string map_spec;      ///< "empty:32x32", "warehouse", "random:32x32:0.2", or a file
   std::string instance_set;  ///< where instances come from: "generated/seed:1", or a folder
   std::int64_t robots = 0;
-  double ssi_s = 0;        ///< start-safe interval, may be infinite
-  std::string planner;     ///< "aa-sipp", "sipp", "complete"; "aa-sipp+complete": with a fallback
-  std::string order;       ///< initial order: "fifo", "shortest", "longest", "random"
-  std::string reschedule;  ///< "none", "deterministic", "random"
-  bool any_angle = true;
-  std::int64_t connectedness = 2;  ///< 2^k neighbours
-  double radius_cells = 0.5;       ///< 0: mixed, as each instance says
-  double speed_cells_per_s = 1;    ///< 0: mixed, as each instance says
-  double time_limit_s = kNoTimeLimit;
-  std::uint64_t max_expansions = kNoCountLimit;
-  std::uint64_t max_restarts = kNoCountLimit;
-  std::uint64_t seed = 0;  ///< of the planner
+  /// As tables show it: "sipplab weight:1.05" (what differs from the defaults), "cmd:NAME" (another program).
+  std::string planner;
+  double radius_cells = 0.5;     ///< 0: mixed, as each instance says
+  double speed_cells_per_s = 1;  ///< 0: mixed, as each instance says
+  /// Of the planner, by column: an integer (1 for yes), a real or a text.
+  std::map<std::string, Value, std::less<>> options;
+
+  /// REQUIRES: there is such a column, with a value of this kind.
+  const Value& option(std::string_view column) const { return options.find(column)->second; }
+  double real(std::string_view column) const { return std::get<double>(option(column)); }
+  const std::string& text(std::string_view column) const { return std::get<std::string>(option(column)); }
 
   friend bool operator==(const CaseInfo&, const CaseInfo&) = default;
 };

@@ -69,11 +69,11 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
     const char* heading;
     bool number;
   };
-  constexpr Column kColumns[] = {{"environment", false}, {"planner", false},    {"neighbours", true},
-                                 {"order", false},       {"reschedule", false}, {"ssi", true},
-                                 {"robots", true},       {"solved", true},      {"success", true},
-                                 {"mean time", true},    {"median time", true}, {"makespan", true},
-                                 {"flowtime", true},     {"tries", true},       {"expansions", true}};
+  constexpr Column kColumns[] = {{"environment", false}, {"planner", false},  {"order", false},
+                                 {"reschedule", false},  {"ssi", true},       {"robots", true},
+                                 {"solved", true},       {"success", true},   {"mean time", true},
+                                 {"median time", true},  {"makespan", true},  {"flowtime", true},
+                                 {"tries", true},        {"expansions", true}};
   std::vector<std::string> heading;
   std::vector<bool> to_the_right;
   for (const Column& column : kColumns) {
@@ -82,9 +82,8 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const CellSummary& cell : cells) {
-    rows.push_back({escaped(cell.environment), escaped(cell.planner),
-                    fmt::format("{}", 1 << cell.connectedness), escaped(cell.order), escaped(cell.reschedule),
-                    ssi_text(cell.ssi_s), fmt::format("{}", cell.robots),
+    rows.push_back({escaped(cell.environment), escaped(cell.planner), escaped(cell.order),
+                    escaped(cell.reschedule), ssi_text(cell.ssi_s), fmt::format("{}", cell.robots),
                     fmt::format("{}/{}", cell.solved, cell.results), rounded(cell.success_rate, 2),
                     duration(cell.mean_planning_time_s), duration(cell.median_planning_time_s),
                     rounded(cell.mean_makespan_s, 2), rounded(cell.mean_flowtime_s, 2),

@@ -1,12 +1,24 @@
 // Insert a row or find it: one statement each, which ends in the row's key.
 #include "db/rows.hpp"
 
+#include <fmt/core.h>
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 namespace sipplab::db {
 namespace {
+
+/// What a statement that ends in RETURNING id returns.
+Result<std::int64_t> key_of(sqlite::Statement& statement) {
+  const auto row = statement.step();
+  if (!row) return Unexpected{row.error()};
+  const std::int64_t id = statement.integer(0);
+  if (auto done = statement.run(); !done) return Unexpected{done.error()};
+  return id;
+}
 
 // RETURNING answers for a row that was there only when the conflict changes it, so
 // each statement sets a column to what it is.
@@ -15,11 +27,7 @@ Result<std::int64_t> upsert(sqlite::Connection& connection, std::string_view sql
                             const Values&... values) {
   auto statement = sqlite::Statement::prepare(connection, sql, doing);
   if (!statement) return Unexpected{statement.error()};
-  const auto row = statement->bind(values...).step();
-  if (!row) return Unexpected{row.error()};
-  const std::int64_t id = statement->integer(0);
-  if (auto done = statement->run(); !done) return Unexpected{done.error()};
-  return id;
+  return key_of(statement->bind(values...));
 }
 
 }  // namespace
@@ -65,6 +73,18 @@ std::int64_t to_count(std::uint64_t value) {
 }
 
 std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+void bind_value(sqlite::Statement& statement, int index, const Value& value) {
+  const auto bind = [&statement, index](const auto& bound) {
+    using Bound = std::decay_t<decltype(bound)>;
+    if constexpr (std::is_same_v<Bound, Null> || std::is_same_v<Bound, Blob>) {
+      statement.bind_at(index, std::nullopt);
+    } else {
+      statement.bind_at(index, bound);
+    }
+  };
+  std::visit(bind, value);
+}
 
 Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit) {
   // A shallow clone does not know the counts; a full one fills them in.
@@ -145,18 +165,25 @@ Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, c
 }
 
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
-  return upsert(
+  std::string columns, marks;
+  for (const auto& [column, value] : parameters.options) {
+    columns += ", " + column;
+    marks += ", ?";
+  }
+  auto statement = sqlite::Statement::prepare(
       connection,
-      "INSERT INTO case_ (environment, map_spec, instance_set, robots, ssi_s, planner, initial_order, "
-      "reschedule, any_angle, connectedness, radius_cells, speed_cells_per_s, time_limit_s, "
-      "max_expansions, max_restarts, seed) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) "
-      "ON CONFLICT DO UPDATE SET seed = seed RETURNING id",
-      "writing a case", parameters.environment, parameters.map_spec, parameters.instance_set,
-      parameters.robots, parameters.ssi_s, parameters.planner, parameters.order, parameters.reschedule,
-      parameters.any_angle, parameters.connectedness, parameters.radius_cells, parameters.speed_cells_per_s,
-      parameters.time_limit_s, to_count(parameters.max_expansions), to_count(parameters.max_restarts),
-      to_bits(parameters.seed));
+      fmt::format("INSERT INTO case_ (environment, map_spec, instance_set, robots, planner, radius_cells, "
+                  "speed_cells_per_s{}) VALUES (?, ?, ?, ?, ?, ?, ?{}) "
+                  "ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
+                  columns, marks),
+      "writing a case");
+  if (!statement) return Unexpected{statement.error()};
+  statement->bind(parameters.environment, parameters.map_spec, parameters.instance_set, parameters.robots,
+                  parameters.planner, parameters.radius_cells, parameters.speed_cells_per_s);
+  constexpr int kPlainColumns = 7;
+  int index = kPlainColumns;
+  for (const auto& [column, value] : parameters.options) bind_value(*statement, ++index, value);
+  return key_of(*statement);
 }
 
 Result<InstanceKeys> InstanceKeys::prepare(sqlite::Connection& connection) {
@@ -186,22 +213,27 @@ Result<std::int64_t> InstanceKeys::key(const InstanceInfo& instance) {
 
 CaseInfo read_case(const sqlite::Statement& row, int column) {
   CaseInfo parameters;
-  parameters.environment = row.text(column++);
-  parameters.map_spec = row.text(column++);
-  parameters.instance_set = row.text(column++);
-  parameters.robots = row.integer(column++);
-  parameters.ssi_s = row.real(column++);
-  parameters.planner = row.text(column++);
-  parameters.order = row.text(column++);
-  parameters.reschedule = row.text(column++);
-  parameters.any_angle = row.integer(column++) != 0;
-  parameters.connectedness = row.integer(column++);
-  parameters.radius_cells = row.real(column++);
-  parameters.speed_cells_per_s = row.real(column++);
-  parameters.time_limit_s = row.real(column++);
-  parameters.max_expansions = static_cast<std::uint64_t>(row.integer(column++));
-  parameters.max_restarts = static_cast<std::uint64_t>(row.integer(column++));
-  parameters.seed = static_cast<std::uint64_t>(row.integer(column));
+  const int count = sqlite3_column_count(row.raw());
+  for (; column < count; ++column) {
+    const std::string name = sqlite3_column_name(row.raw(), column);
+    if (name == "environment") {
+      parameters.environment = row.text(column);
+    } else if (name == "map_spec") {
+      parameters.map_spec = row.text(column);
+    } else if (name == "instance_set") {
+      parameters.instance_set = row.text(column);
+    } else if (name == "robots") {
+      parameters.robots = row.integer(column);
+    } else if (name == "planner") {
+      parameters.planner = row.text(column);
+    } else if (name == "radius_cells") {
+      parameters.radius_cells = row.real(column);
+    } else if (name == "speed_cells_per_s") {
+      parameters.speed_cells_per_s = row.real(column);
+    } else if (name != "id") {
+      parameters.options[name] = value_of(row.raw(), column);
+    }
+  }
   return parameters;
 }
 

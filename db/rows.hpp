@@ -25,6 +25,8 @@ std::int64_t to_bits(std::uint64_t value);
 inline std::int64_t sql_limit(std::size_t limit) {
   return limit == 0 ? -1 : static_cast<std::int64_t>(limit);
 }
+/// A number or a text; of a blob, which no parameter has, NULL.
+void bind_value(sqlite::Statement& statement, int index, const Value& value);
 /// The value of a column in the current row.
 Value value_of(sqlite3_stmt* row, int column);
 /// All rows that are left, under the names of their columns.
@@ -91,11 +93,7 @@ class InstanceKeys {
   sqlite::Statement insert_;
 };
 
-/// The columns of case_ that read_case expects, in its order; `case_` must be in FROM.
-inline constexpr const char* kCaseColumns =
-    "case_.environment, case_.map_spec, case_.instance_set, case_.robots, case_.ssi_s, case_.planner, "
-    "case_.initial_order, case_.reschedule, case_.any_angle, case_.connectedness, case_.radius_cells, "
-    "case_.speed_cells_per_s, case_.time_limit_s, case_.max_expansions, case_.max_restarts, case_.seed";
+/// From `column` on, the columns of case_ by their names: SELECT ..., case_.*.
 CaseInfo read_case(const sqlite::Statement& row, int column);
 
 }  // namespace sipplab::db

@@ -1,6 +1,7 @@
 // Typed rows under named columns, and the three forms in which users read them.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,11 +12,11 @@
 namespace sipplab::db {
 
 struct Null {
-  friend bool operator==(Null, Null) = default;
+  friend auto operator<=>(Null, Null) = default;
 };
 struct Blob {
   std::string bytes;
-  friend bool operator==(const Blob&, const Blob&) = default;
+  friend auto operator<=>(const Blob&, const Blob&) = default;
 };
 /// One of SQLite's five storage classes. A REAL may be infinite, never NaN.
 using Value = std::variant<Null, std::int64_t, double, std::string, Blob>;

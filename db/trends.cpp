@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "db/queries.hpp"
+#include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/statistics/statistics.hpp"
 
@@ -134,29 +134,23 @@ void tell_apart(std::vector<CaseName>& cases) {
 }
 
 Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& filter) {
-  auto select =
-      Statement::prepare(database.connection(),
-                         "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s%s', iif(map_spec = 'files', "
-                         "environment, map_spec), "
-                         "robots, "
-                         "iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, " +
-                             std::string(kPlannerNameSql) +
-                             ", iif(reschedule = 'random' OR initial_order = 'random', printf(', seed %d', "
-                             "seed), '')), " +
-                             std::string(kDetailsSql) +
-                             " FROM case_ "
-                             "WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) AND (?3 IS "
-                             "NULL OR robots = ?3) "
-                             "AND (?4 IS NULL OR ssi_s = ?4) AND (?5 IS NULL OR reschedule = ?5) "
-                             "AND (?6 IS NULL OR initial_order = ?6) AND (?7 IS NULL OR any_angle = ?7) "
-                             "AND (?8 IS NULL OR connectedness = ?8) AND (?9 IS NULL OR map_spec = ?9) "
-                             "AND (?10 IS NULL OR planner = ?10) "
-                             "ORDER BY environment, planner, any_angle, connectedness, initial_order, "
-                             "reschedule, ssi_s, robots, id",
-                         kReadingTrend);
+  std::string sql =
+      "SELECT id, printf('%s, %d robots, ssi %s, %s, %s, %s%s', iif(map_spec = 'files', environment, "
+      "map_spec), "
+      "robots, iif(ssi_s = 9e999, 'inf', printf('%g', ssi_s)), reschedule, initial_order, planner, "
+      "iif(reschedule = 'random' OR initial_order = 'random', printf(', seed %d', seed), '')), " +
+      std::string(kDetailsSql) +
+      " FROM case_ WHERE (?1 IS NULL OR id = ?1) AND (?2 IS NULL OR environment = ?2) "
+      "AND (?3 IS NULL OR robots = ?3) AND (?4 IS NULL OR map_spec = ?4) AND (?5 IS NULL OR planner = ?5)";
+  constexpr int kPlainParameters = 5;
+  int parameter = kPlainParameters;
+  for (const auto& [column, value] : filter.options) sql += fmt::format(" AND {} = ?{}", column, ++parameter);
+  sql += " ORDER BY environment, planner, initial_order, reschedule, ssi_s, robots, id";
+  auto select = Statement::prepare(database.connection(), sql, kReadingTrend);
   if (!select) return Unexpected{select.error()};
-  select->bind(filter.id, filter.environment, filter.robots, filter.ssi_s, filter.reschedule, filter.order,
-               filter.any_angle, filter.connectedness, filter.map, filter.planner);
+  select->bind(filter.id, filter.environment, filter.robots, filter.map, filter.planner);
+  parameter = kPlainParameters;
+  for (const auto& [column, value] : filter.options) bind_value(*select, ++parameter, value);
   std::vector<CaseName> cases;
   for (;;) {
     const auto row = select->step();

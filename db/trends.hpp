@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "db/database.hpp"
 #include "db/error.hpp"
+#include "db/records.hpp"
 #include "db/statistics/change_points.hpp"
 
 namespace sipplab::db {
@@ -37,13 +39,9 @@ struct CaseFilter {
   std::optional<std::int64_t> id;
   std::optional<std::string> environment;
   std::optional<std::int64_t> robots;
-  std::optional<double> ssi_s;
-  std::optional<std::string> reschedule;
-  std::optional<std::string> order;
-  std::optional<bool> any_angle;
-  std::optional<std::int64_t> connectedness;
   std::optional<std::string> map;
-  std::optional<std::string> planner;  ///< as the table has it: "aa-sipp+weight:1.05", "cmd:mine"
+  std::optional<std::string> planner;    ///< as the table has it: "sipplab weight:1.05", "cmd:mine"
+  std::map<std::string, Value> options;  ///< of the planner, by column
 };
 
 struct TrendQuery {

@@ -3,8 +3,9 @@
 #include <optional>
 #include <string_view>
 
+#include "bench/sweep/sweep_case.hpp"
 #include "planner/io/text.hpp"
-#include "planner/options/options.hpp"
+#include "planner/options/option_table.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -22,13 +23,14 @@ bool set(db::CaseFilter& filter, std::string_view key, const std::string& text) 
   if (key == "environment" || key == "env") return filter.environment = text, true;
   if (key == "map") return filter.map = text, true;
   if (key == "planner") return filter.planner = text, true;
-  if (key == "reschedule") return filter.reschedule = text, true;
-  if (key == "order") return filter.order = text, true;
   if (key == "robots") return (filter.robots = parse_whole(text)).has_value();
-  if (key == "connectedness") return (filter.connectedness = parse_whole(text)).has_value();
-  if (key == "ssi") return (filter.ssi_s = parse_ssi(text)).has_value();
-  if (key == "any-angle" && (text == "yes" || text == "no")) return filter.any_angle = text == "yes", true;
-  return false;
+  const Option* option = find_option(key);
+  if (option == nullptr || *option->column == '\0' || !takes(*option, text)) return false;
+  // As a case has it: of a choice one word, of numbers one.
+  PlannerOptions options;
+  option->set(options, text);
+  filter.options[option->column] = bench::column_value(*option, option->get(options));
+  return true;
 }
 
 }  // namespace
@@ -37,7 +39,7 @@ void add_case_flag(CLI::App& command, std::vector<std::string>& parts) {
   command
       .add_option("--case", parts,
                   "number of a case, or what it has: robots=64,ssi=3,environment=warehouse; also map, "
-                  "reschedule, order, connectedness, any-angle=yes|no, planner=cmd:NAME")
+                  "planner=cmd:NAME, and every option of the planner, weight=1.05,turns=yes")
       ->delimiter(',')
       ->type_name("CASE");
 }
@@ -53,8 +55,8 @@ Expected<db::CaseFilter, std::string> parse_case_filter(const std::vector<std::s
     if (!understood) {
       return Unexpected{
           "--case " + in_quotes(part) +
-          ", expected the number of a case, or one of environment=, map=, robots=, ssi=, reschedule=, "
-          "order=, connectedness=, any-angle=yes|no, planner="};
+          ", expected the number of a case, or one of environment=, map=, robots=, planner=, and options of "
+          "the planner, such as ssi=5, reschedule=none, any-angle=no"};
     }
   }
   return filter;

@@ -15,11 +15,11 @@ using Part = std::string (*)(const db::CaseInfo&);
 const Part kParts[] = {
     [](const db::CaseInfo& c) { return place_name(c.map_spec, c.environment); },
     [](const db::CaseInfo& c) { return fmt::format("{} robots", c.robots); },
-    [](const db::CaseInfo& c) { return "ssi " + format_ssi(c.ssi_s); },
-    [](const db::CaseInfo& c) { return c.reschedule; },
-    [](const db::CaseInfo& c) { return c.order; },
-    [](const db::CaseInfo& c) { return planner_name(c.planner, c.any_angle, c.connectedness); },
-    [](const db::CaseInfo& c) { return fmt::format("seed {}", c.seed); },
+    [](const db::CaseInfo& c) { return "ssi " + format_ssi(c.real("ssi_s")); },
+    [](const db::CaseInfo& c) { return c.text("reschedule"); },
+    [](const db::CaseInfo& c) { return c.text("initial_order"); },
+    [](const db::CaseInfo& c) { return c.planner; },
+    [](const db::CaseInfo& c) { return fmt::format("seed {}", std::get<std::int64_t>(c.option("seed"))); },
 };
 constexpr std::size_t kAlwaysThere = 2;
 

@@ -19,13 +19,13 @@ namespace {
 bool is_solved(const db::ResultRow& row) { return row.status == db::ResultStatus::kSolved; }
 
 std::optional<double> par2(const db::PairedCell& cell, db::ResultRow db::PairedResult::*side) {
-  if (std::isinf(cell.parameters.time_limit_s)) return std::nullopt;
+  if (std::isinf(cell.parameters.real("time_limit_s"))) return std::nullopt;
   constexpr double kSecondsPerNanosecond = 1e-9;
   std::vector<db::statistics::TimedResult> times;
   for (const db::PairedResult& result : cell.results) {
     const db::ResultRow& row = result.*side;
     times.push_back({is_solved(row), static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond,
-                     cell.parameters.time_limit_s});
+                     cell.parameters.real("time_limit_s")});
   }
   return db::statistics::par2(times);
 }

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "bench/sweep/sweep_case.hpp"
-#include "planner/options/options.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -40,26 +38,21 @@ std::string body_flags(std::string_view name) {
   return flags;
 }
 
-std::string planner_flags(const db::CaseInfo& parameters) {
-  std::string flags =
-      fmt::format("--ssi {} --reschedule {} --order {} --connectedness {}", format_ssi(parameters.ssi_s),
-                  parameters.reschedule, parameters.order, parameters.connectedness);
-  if (!parameters.any_angle) flags += " --no-any-angle";
-  if (is_complete_planner(parameters.planner)) flags += " --method complete";
-  flags += fmt::format(" --seed {}", parameters.seed);
-  if (parameters.max_restarts < db::kNoCountLimit) {
-    flags += fmt::format(" --max-restarts {}", parameters.max_restarts);
-  }
-  if (parameters.max_expansions < db::kNoCountLimit) {
-    flags += fmt::format(" --max-expansions {}", parameters.max_expansions);
-  }
-  if (!std::isinf(parameters.time_limit_s)) {
-    flags += fmt::format(" --time-limit {}", format_ssi(parameters.time_limit_s));
-  }
-  return flags + suffix_flags(parameters.planner);
-}
-
 }  // namespace
+
+std::string option_flags(const PlannerOptions& options, OptionRows rows) {
+  std::string flags;
+  for (const Option& option : rows) {
+    if (!is_told(option, options)) continue;
+    const std::string text = option.get(options);
+    if (option.kind == OptionKind::kYesNo) {
+      flags += fmt::format(" --{}{}", text == "yes" ? "" : "no-", option.name);
+    } else {
+      flags += fmt::format(" --{} {}", option.name, text);
+    }
+  }
+  return flags;
+}
 
 std::string replay_command(const db::CaseInfo& parameters, const std::string& instance_name) {
   const std::optional<std::uint64_t> index = number_after(instance_name, " index:");
@@ -67,7 +60,7 @@ std::string replay_command(const db::CaseInfo& parameters, const std::string& in
   const bool is_ours = !is_another_program(parameters.planner);
   const auto plan = [&](const std::string& file) {
     if (!is_ours) return fmt::format("give {} to {}", file, parameters.planner);
-    return fmt::format("sipplab plan --instance {} {}", file, planner_flags(parameters));
+    return fmt::format("sipplab plan --instance {}{}", file, option_flags(options_of(parameters)));
   };
   if (parameters.map_spec == "files" || !index || !seed) {
     return plan(instance_name);

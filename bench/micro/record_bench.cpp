@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/sweep/run_info.hpp"
+#include "bench/sweep/sweep_case.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
 
@@ -62,11 +63,10 @@ void record_cases(benchmark::State& state) {
   info.machine = bench::machine_info();
   auto recorder = db::RunRecorder::begin(std::move(*database), info);
   if (!recorder) return state.SkipWithError(recorder.error().message.c_str());
-  db::CaseInfo parameters;
-  parameters.environment = "empty";
-  parameters.time_limit_s = 60;
+  db::CaseInfo parameters = bench::case_row({});
+  std::int64_t seed = 0;
   for ([[maybe_unused]] auto iteration : state) {
-    ++parameters.seed;  // another case each time
+    parameters.options["seed"] = ++seed;  // another case each time
     for (int i = 0; i < kResults; ++i) {
       const db::InstanceInfo instance{
           fmt::format("{:016x}", i), "map", fmt::format("number {}", i), 64, 32, 32, 0};

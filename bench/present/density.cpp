@@ -14,8 +14,7 @@ namespace {
 
 /// What stays the same within a picture.
 std::string method_of(const db::CellSummary& cell) {
-  return fmt::format("{}, {}, {}, {}", cell.environment, cell.reschedule, cell.order,
-                     planner_name(cell.planner, cell.any_angle, cell.connectedness));
+  return fmt::format("{}, {}, {}, {}", cell.environment, cell.reschedule, cell.order, cell.planner);
 }
 
 std::string file_name(const std::string& kind, const std::string& method) {

@@ -11,7 +11,7 @@
 namespace sipplab::bench {
 
 struct DensityChart {
-  std::string name;  ///< fit for a file: "success-warehouse-deterministic-shortest-any-angle-8"
+  std::string name;  ///< fit for a file: "success-warehouse-deterministic-shortest-sipplab-connectedness-3"
   Chart chart;
 };
 

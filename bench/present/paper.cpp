@@ -28,7 +28,7 @@ std::string paper_cells_sql() {
       "    count(*) AS runs, sum(status = 'solved') AS solved, sum(planning_time_s) AS seconds,"
       "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
       "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
-      "  FROM v_results WHERE {} AND {} = :method GROUP BY 1, 2, 3, 4, 5, 6) "
+      "  FROM v_results WHERE {} AND planner = :method GROUP BY 1, 2, 3, 4, 5, 6) "
       "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs) AS runs, sum(solved) AS "
       "solved,"
       "  sum(seconds) / sum(runs) AS mean_seconds, count(*) AS instances, sum(solved > 0) AS with_plan,"
@@ -38,7 +38,7 @@ std::string paper_cells_sql() {
       "  sum(flowtime_s) AS flowtime, sum(flowtime_s * solved) AS flowtime_solved,"
       "  sum(flowtime_s * flowtime_s) AS flowtime_squares "
       "FROM instance GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 4, 5, 3, 2",
-      kPaperMaps, db::kPlannerNameSql);
+      kPaperMaps);
 }
 
 /// A share of two sums over instances, such as cost over solved runs: sums of both, of their squares and of
@@ -284,11 +284,10 @@ Standing success_standing(const MeasuredCell& cell, double paper) {
 
 /// How the planner of the run is called; of several, the paper's.
 db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
-  const auto table =
-      db::run_sql(database,
-                  fmt::format("SELECT DISTINCT {} AS method FROM v_results WHERE {} ORDER BY 1",
-                              db::kPlannerNameSql, kPaperMaps),
-                  {{"run", run}});
+  const auto table = db::run_sql(
+      database,
+      fmt::format("SELECT DISTINCT planner AS method FROM v_results WHERE {} ORDER BY 1", kPaperMaps),
+      {{"run", run}});
   if (!table) return Unexpected{table.error()};
   std::string names;
   for (const auto& row : table->rows) {

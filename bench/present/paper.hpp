@@ -15,7 +15,7 @@
 namespace sipplab::bench {
 
 /// How the planner is called in tables with which the paper was measured.
-inline constexpr std::string_view kPaperMethod = "any-angle-8";
+inline constexpr std::string_view kPaperMethod = "sipplab connectedness:3";
 
 /// All runs of one cell of the paper's: every instance, seed and repetition.
 struct MeasuredCell {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "bench/present/numbers.hpp"
-#include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -22,7 +21,7 @@ using LineName = std::array<std::string, 6>;
 
 LineName name_of(const db::RunReport& run, const db::CellSummary& cell) {
   return {cell.environment,
-          planner_name(cell.planner, cell.any_angle, cell.connectedness),
+          cell.planner,
           cell.reschedule,
           cell.order,
           "ssi " + ssi_text(cell.ssi_s),
@@ -32,9 +31,11 @@ LineName name_of(const db::RunReport& run, const db::CellSummary& cell) {
 bool admits(const db::CaseFilter& filter, const db::CellSummary& cell) {
   const auto agrees = [](const auto& wanted, const auto& value) { return !wanted || *wanted == value; };
   return agrees(filter.environment, cell.environment) && agrees(filter.robots, cell.robots) &&
-         agrees(filter.ssi_s, cell.ssi_s) && agrees(filter.reschedule, cell.reschedule) &&
-         agrees(filter.order, cell.order) && agrees(filter.any_angle, cell.any_angle) &&
-         agrees(filter.connectedness, cell.connectedness) && agrees(filter.planner, cell.planner);
+         agrees(filter.map, cell.parameters.map_spec) && agrees(filter.planner, cell.planner) &&
+         std::all_of(filter.options.begin(), filter.options.end(), [&cell](const auto& wanted) {
+           const auto option = cell.parameters.options.find(wanted.first);
+           return option != cell.parameters.options.end() && option->second == wanted.second;
+         });
 }
 
 /// The parts joined that `wanted` says, an entry for each part.

@@ -29,7 +29,7 @@ const Parameter kParameters[] = {
     {"environment", [](const SweepCase& c) { return c.map_spec == "files" ? c.environment : c.map_spec; }},
     {"reschedule", [](const SweepCase& c) { return std::string(name(c.options.rescheduling)); }},
     {"order", [](const SweepCase& c) { return std::string(name(c.options.order)); }},
-    {"planner", [](const SweepCase& c) { return planner_name(c); }},
+    {"planner", [](const SweepCase& c) { return planner_label(c); }},
     {"seed", [](const SweepCase& c) { return std::to_string(c.options.seed); }},
 };
 

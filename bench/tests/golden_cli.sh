@@ -129,12 +129,12 @@ expect 0 plan --instance turn.xml --best --improve 5i
 expect 0 generate --map empty:16x16 --agents 6 --radius 0.3,1.4 --speed 0.5,2 --headings --obstacles 1 -o bodies
 expect 0 plan --instance bodies/0.xml --turns --inflate-distance 0.125 --inflate-time 0.25
 expect 0 bench --instances bodies --turns --wait-before-move 0.25 --inflate-time 0.5 --max-restarts 3 --db rules.db
-equal "$(sqlite3 rules.db 'SELECT DISTINCT planner FROM v_run_cells')" 'aa-sipp+turns+wait:0.25+time:0.5' 'the rules in the history'
+equal "$(sqlite3 rules.db 'SELECT DISTINCT planner FROM v_run_cells')" 'sipplab turns:yes wait-before-move:0.25 inflate-time:0.5' 'the rules in the history'
 refused 'inflated distances or times, expected none' bench --instances bodies --inflate-time 1 --improve 5i --db rules.db
 
 expect 0 bench --instances bodies --weight 1,1.05 --max-restarts 3 --db weights.db
-equal "$(sqlite3 weights.db 'SELECT group_concat(planner) FROM (SELECT planner FROM v_run_cells ORDER BY planner)')" \
-  'aa-sipp,aa-sipp+weight:1.05' 'the weights in the history'
+equal "$(sqlite3 weights.db 'SELECT group_concat(weight) FROM (SELECT weight FROM v_cases ORDER BY weight)')" \
+  '1.0,1.05' 'the weights in the history'
 
 # --- the history ------------------------------------------------------------------
 
@@ -147,13 +147,13 @@ python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v pyt
 equal "$(ask "SELECT group_concat(instance) FROM (SELECT instance FROM v_results WHERE map_spec = 'files' ORDER BY instance)" | tr -d ' ' | sed 's/[^,]*\///g')" "0.xml,1.xml,2.xml" "instances of a folder"
 expect 0 bench --suite smoke --benchmark_list_tests --benchmark_filter=agents:32/.*fifo
 equal "$(wc -l <out)" 8 "cases listed"
-says '^plan/warehouse/agents:32/ssi:2.5/reschedule:deterministic/order:fifo/planner:any-angle-4'
+says '^plan/warehouse/agents:32/ssi:2.5/reschedule:deterministic/order:fifo/iterations'
 [ ! -e sipplab.db ] || complain "listing cases made a history"
 # Without a time limit, here and elsewhere: on a machine with other work it would decide.
 expect 0 bench --suite dense --map warehouse --robots 128 --count 2 --time-limit inf --db dense.db
 expect 0 bench --suite smoke --map warehouse --robots 128 --time-limit inf --ssi 0 --reschedule none --order shortest --connectedness 2 --any-angle --count 2 --fallback complete --db dense.db
 equal "$("$sipplab" sql --db dense.db --format csv "SELECT planner, made_by, results, solved FROM v_plan_makers ORDER BY planner" | tail -n +2 | tr -d '\r' | tr '\n' ' ')" \
-  "aa-sipp+complete,complete,2,2 complete,complete,2,2 " "who made the plans"
+  "sipplab any-angle:no method:complete,complete,2,2 sipplab fallback:complete,complete,2,2 " "who made the plans"
 equal "$("$sipplab" sql --db dense.db --format csv "SELECT count(*), min(solved), min(peak_memory_bytes > 1000000), min(mean_expansions > 0) FROM v_work" | tail -n +2 | tr -d '\r')" \
   "2,2,1,1" "work of each case"
 refused 'expected the speed of agent 0' bench --instances mixed --fallback complete --db dense.db

@@ -55,7 +55,7 @@ equal "$(row honest 'status, valid, limit_struck IS NULL, planning_time_ns > 100
   'solved|1|1|1|1' 'an honest planner'
 expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest --db planners.db
 equal "$(sqlite3 planners.db "SELECT count(*), count(DISTINCT plan_hash) FROM v_results
-    WHERE planner IN ('cmd:honest', 'aa-sipp')")" '4|2' 'its plans are the same'
+    WHERE planner IN ('cmd:honest', 'sipplab')")" '4|2' 'its plans are the same'
 
 # From where one stands, by program or by script, and whatever TMPDIR is.
 for command in './honest' 'sh ./honest' "sh ../$(basename "$work")/honest"; do

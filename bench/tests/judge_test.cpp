@@ -17,6 +17,7 @@
 #include "bench/judge/replay_command.hpp"
 #include "bench/judge/report.hpp"
 #include "bench/judge/text_table.hpp"
+#include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -40,16 +41,21 @@ db::ResultRow failed() {
   return row;
 }
 
+/// A case with some options, each with a value.
+db::CaseInfo row_with(std::initializer_list<std::pair<const char*, const char*>> values) {
+  SweepCase sweep_case;
+  sweep_case.environment = sweep_case.map_spec = "warehouse";
+  sweep_case.robots = 64;
+  sweep_case.options.time_limit_s = db::kNoTimeLimit;
+  for (const auto& [name, text] : values)
+    EXPECT_TRUE(find_option(name)->set(sweep_case.options, text)) << name;
+  return case_row(sweep_case);
+}
+
 /// A cell of `count` instances that both sides solved alike.
 db::PairedCell equal_cell(std::size_t count) {
   db::PairedCell cell;
-  cell.parameters.environment = "warehouse";
-  cell.parameters.map_spec = "warehouse";
-  cell.parameters.robots = 64;
-  cell.parameters.ssi_s = 5;
-  cell.parameters.order = "shortest";
-  cell.parameters.reschedule = "deterministic";
-  cell.parameters.seed = 1;
+  cell.parameters = row_with({});
   cell.same_machine = true;
   for (std::size_t i = 0; i < count; ++i) {
     const db::ResultRow row = solved(i, 100 + static_cast<double>(i));
@@ -220,8 +226,8 @@ TEST(Judgement, ReportsNameTheInstanceAndTheCommand) {
   const Report report{result, "sipplab compare", "run 1", "run 2"};
   const std::string command =
       "sipplab generate --map warehouse --agents 64 --seed 7 --count 3 -o replay && "
-      "sipplab plan --instance replay/2.xml --ssi 5 --reschedule deterministic "
-      "--order shortest --connectedness 2 --seed 1";
+      "sipplab plan --instance replay/2.xml --ssi 5 --order shortest --reschedule deterministic "
+      "--any-angle --connectedness 2 --seed 1 --time-limit inf";
   for (const std::string& text : {report_text(report), report_markdown(report), report_json(report)}) {
     EXPECT_NE(text.find("index:2"), std::string::npos) << text;
     EXPECT_NE(text.find(command), std::string::npos) << text;
@@ -288,17 +294,13 @@ TEST(Judgement, PlansThatMayDifferAreNoChange) {
 }
 
 TEST(ReplayCommand, TakesFilesAsTheyAre) {
-  db::CaseInfo parameters = equal_cell(0).parameters;
+  db::CaseInfo parameters =
+      row_with({{"any-angle", "no"}, {"max-restarts", "9"}, {"improve", "5i"}, {"weight", "1.5"}});
   parameters.map_spec = "files";
-  parameters.any_angle = false;
-  parameters.planner = "aa-sipp+complete";
-  EXPECT_NE(replay_command(parameters, "a.xml").find(" --fallback complete"), std::string::npos);
-  parameters.planner = "complete";
-  EXPECT_NE(replay_command(parameters, "a.xml").find(" --method complete"), std::string::npos);
-  parameters.planner = "aa-sipp";
   EXPECT_EQ(replay_command(parameters, "empty/64/3.xml"),
-            "sipplab plan --instance empty/64/3.xml --ssi 5 --reschedule deterministic --order shortest "
-            "--connectedness 2 --no-any-angle --seed 1");
+            "sipplab plan --instance empty/64/3.xml --ssi 5 --order shortest --reschedule deterministic "
+            "--no-any-angle --connectedness 2 --weight 1.5 --seed 1 --max-restarts 9 --time-limit inf "
+            "--improve 5i");
 }
 
 TEST(ReplayCommand, NamesAnotherProgramForWhatItPlanned) {
@@ -313,29 +315,28 @@ TEST(ReplayCommand, NamesAnotherProgramForWhatItPlanned) {
 }
 
 TEST(ReplayCommand, SaysWhatRobotsAndRulesAreNotAsUsual) {
-  db::CaseInfo parameters = equal_cell(0).parameters;
-  parameters.planner = "aa-sipp+turns+wait:0.5+distance:0.25+time:2";
+  const db::CaseInfo parameters = row_with(
+      {{"turns", "yes"}, {"wait-before-move", "0.5"}, {"inflate-distance", "0.25"}, {"inflate-time", "2"}});
   EXPECT_EQ(
       replay_command(parameters,
                      "warehouse agents:64 seed:1 index:3 radius:0.3,1.4 speed:0.5,2 headings obstacles:2"),
       "sipplab generate --map warehouse --agents 64 --seed 1 --count 4 --radius 0.3,1.4 --speed 0.5,2 "
-      "--obstacles 2 --headings -o replay && sipplab plan --instance replay/3.xml --ssi 5 --reschedule "
-      "deterministic --order shortest --connectedness 2 --seed 1 --turns --wait-before-move 0.5 "
-      "--inflate-distance 0.25 --inflate-time 2");
+      "--obstacles 2 --headings -o replay && sipplab plan --instance replay/3.xml --ssi 5 --order shortest "
+      "--reschedule deterministic --any-angle --connectedness 2 --turns --wait-before-move 0.5 "
+      "--inflate-distance 0.25 --inflate-time 2 --seed 1 --time-limit inf");
   EXPECT_EQ(case_words({parameters}).front(),
-            "warehouse, 64 robots, ssi 5, deterministic, shortest, "
-            "any-angle-4+turns+wait:0.5+distance:0.25+time:2, "
-            "seed 1");
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, sipplab turns:yes wait-before-move:0.5 "
+            "inflate-distance:0.25 inflate-time:2, seed 1");
 }
 
 TEST(CaseWords, SayWhatTellsCasesApart) {
   db::CaseInfo one = equal_cell(0).parameters;
   db::CaseInfo other = one;
-  other.ssi_s = 0;
+  other.options["ssi_s"] = 0.0;
   EXPECT_EQ(case_words({one, other}),
             (std::vector<std::string>{"warehouse, 64 robots, ssi 5", "warehouse, 64 robots, ssi 0"}));
   EXPECT_EQ(case_words({one}).front(),
-            "warehouse, 64 robots, ssi 5, deterministic, shortest, any-angle-4, seed 1");
+            "warehouse, 64 robots, ssi 5, deterministic, shortest, sipplab, seed 1");
 }
 
 TEST(Evidence, HolmMultipliesByTheTestsThatAreLeft) {

@@ -110,7 +110,7 @@ TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
       cell.ssi_s = ssi_s;
       cell.reschedule = "none";
       cell.order = "fifo";
-      cell.connectedness = 3;
+      cell.planner = "sipplab connectedness:3";
       cell.success_rate = 0.5;
       cell.median_planning_time_s = 0.01;
       run.cells.push_back(cell);
@@ -118,11 +118,11 @@ TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   }
   const auto charts = density_charts(run, run);
   ASSERT_EQ(charts.size(), 2U);
-  EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-any-angle-8");
-  EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-any-angle-8");
+  EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-sipplab-connectedness-3");
+  EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3");
   run.cells.push_back(run.cells.front());
   run.cells.back().environment = "ware=house";
-  EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-any-angle-8-2");
+  EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3-2");
   ASSERT_EQ(charts[0].chart.lines.size(), 4U);
   EXPECT_EQ(charts[0].chart.lines[2].label, "ssi inf");
   EXPECT_TRUE(charts[0].chart.lines[3].dashed);
@@ -229,7 +229,7 @@ TEST(RuntimeChart, names_lines_by_what_tells_them_apart) {
   const Chart chart = runtime_chart({ours, theirs}, empty_maps);
   ASSERT_EQ(chart.lines.size(), 2U);
   EXPECT_EQ(chart.title, "empty, none, fifo, ssi 5") << "what all lines share";
-  EXPECT_EQ(chart.lines[0].label, "any-angle-4, run 11111111");
+  EXPECT_EQ(chart.lines[0].label, "sipplab, run 11111111");
   EXPECT_EQ(chart.lines[0].points, (std::vector<std::pair<double, double>>{{16, 1}, {32, 2}}));
   EXPECT_NE(chart.lines[1].label.find("cmd:other"), std::string::npos) << chart.lines[1].label;
   ASSERT_EQ(chart.lines[1].points.size(), 1U) << "cases that differ in nothing shown are one point";

@@ -157,20 +157,33 @@ TEST(PerfCounter, NothingIsCountedWhereThereIsNoSuchCounter) {
   EXPECT_FALSE(PerfCounter(PERF_TYPE_SOFTWARE, kNoEvent).count());
 }
 
-TEST(PlannerName, SaysWhatThePlannerIsMadeOf) {
+TEST(PlannerLabel, SaysWhatDiffersFromTheDefaults) {
   SweepCase sweep_case;
-  EXPECT_EQ(planner_name(sweep_case), "any-angle-4");
-  sweep_case.options.fallback = Fallback::kComplete;
-  EXPECT_EQ(planner_name(sweep_case), "any-angle-4+complete");
-  EXPECT_EQ(case_row(sweep_case).planner, "aa-sipp+complete");
-  EXPECT_EQ(suffix_flags("aa-sipp+turns+wait:0.5+complete"),
-            " --turns --wait-before-move 0.5 --fallback complete");
+  sweep_case.map_spec = "warehouse";
+  EXPECT_EQ(planner_label(sweep_case), "sipplab");
+  const std::string plain = case_name(sweep_case, false);
   sweep_case.options.weight = 1.05;
-  EXPECT_EQ(planner_name(sweep_case), "any-angle-4+weight:1.05+complete");
-  EXPECT_EQ(suffix_flags(case_row(sweep_case).planner), " --weight 1.05 --fallback complete");
-  sweep_case.options.method = Method::kComplete;
-  EXPECT_EQ(planner_name(sweep_case), "complete");
-  EXPECT_TRUE(is_complete_planner(case_row(sweep_case).planner));
+  sweep_case.options.fallback = Fallback::kComplete;
+  EXPECT_EQ(planner_label(sweep_case), "sipplab weight:1.05 fallback:complete");
+  EXPECT_EQ(case_name(sweep_case, false), plain + "/weight:1.05/fallback:complete");
+  sweep_case.command = "other";
+  EXPECT_EQ(planner_label(sweep_case), "cmd:other");
+  EXPECT_EQ(case_name(sweep_case, true), plain + "/planner:cmd:other/seed:1");
+}
+
+TEST(CaseRow, KeepsEachOptionInItsColumn) {
+  SweepCase sweep_case;
+  for (const auto& [name, text] :
+       {std::pair{"weight", "1.05"}, std::pair{"any-angle", "no"}, std::pair{"seed", "7"},
+        std::pair{"improve", "300i"}, std::pair{"time-limit", "inf"}}) {
+    ASSERT_TRUE(find_option(name)->set(sweep_case.options, text));
+  }
+  const db::CaseInfo row = case_row(sweep_case);
+  EXPECT_EQ(row.real("weight"), 1.05);
+  EXPECT_EQ(row.option("any_angle"), db::Value(std::int64_t{0}));
+  EXPECT_EQ(row.text("improve"), "300i");
+  EXPECT_EQ(row.option("max_restarts"), db::Value(std::int64_t{INT64_MAX})) << "no limit";
+  EXPECT_EQ(options_of(row), sweep_case.options);
 }
 
 TEST(CaseOutcome, MeansOfPlansAreOverSolvedInstancesAlone) {
@@ -237,12 +250,12 @@ TEST(Expand, ReplacedDimensionsTakeTheSuitesPlace) {
   // Both blocks of the suite now mean the same, which is done once.
   ASSERT_EQ(sweep->cases.size(), 2u);
   EXPECT_EQ(sweep->cases[0].name,
-            "plan/empty:8x8/agents:2/ssi:2.5/reschedule:none/order:shortest/planner:grid-8");
+            "plan/empty:8x8/agents:2/ssi:2.5/reschedule:none/order:shortest/any-angle:no/connectedness:3");
   EXPECT_EQ(sweep->cases[1].name,
-            "plan/empty:8x8/agents:2/ssi:inf/reschedule:none/order:shortest/planner:grid-8");
+            "plan/empty:8x8/agents:2/ssi:inf/reschedule:none/order:shortest/any-angle:no/connectedness:3");
   ASSERT_EQ(sweep->sets.size(), 1u);
   EXPECT_EQ(sweep->sets[0].instances.size(), 2u);
-  EXPECT_EQ(case_row(sweep->cases[0].parameters).ssi_s, 2.5);
+  EXPECT_EQ(case_row(sweep->cases[0].parameters).real("ssi_s"), 2.5);
 }
 
 TEST(Expand, EachWeightIsACaseOfItsOwnForEachNeighbourhood) {
@@ -256,9 +269,9 @@ TEST(Expand, EachWeightIsACaseOfItsOwnForEachNeighbourhood) {
   const auto sweep = expand(request);
   ASSERT_TRUE(sweep.has_value()) << sweep.error();
   std::vector<std::string> planners;
-  for (const NamedCase& named : sweep->cases) planners.push_back(planner_name(named.parameters));
-  EXPECT_EQ(planners, (std::vector<std::string>{"any-angle-4", "any-angle-4+weight:1.5", "any-angle-8",
-                                                "any-angle-8+weight:1.5"}));
+  for (const NamedCase& named : sweep->cases) planners.push_back(planner_label(named.parameters));
+  EXPECT_EQ(planners, (std::vector<std::string>{"sipplab", "sipplab weight:1.5", "sipplab connectedness:3",
+                                                "sipplab connectedness:3 weight:1.5"}));
   request.values.push_back(values("method", {"complete"}));
   const auto complete = expand(request);
   ASSERT_TRUE(complete.has_value()) << complete.error();
@@ -296,10 +309,10 @@ TEST(Expand, TheMixedSuiteTurnsRobotsOfManySizes) {
   EXPECT_EQ(sweep->sets[0].instances[0].row.name,
             "empty:24x24 agents:12 seed:1 index:0 radius:0.3,0.5,0.9,1.4 speed:0.5,1,2 headings obstacles:2");
   ASSERT_EQ(sweep->cases.size(), 3u);
-  EXPECT_EQ(case_row(sweep->cases[0].parameters).planner, "aa-sipp");
-  EXPECT_EQ(case_row(sweep->cases[2].parameters).planner, "sipp+turns");
+  EXPECT_EQ(case_row(sweep->cases[0].parameters).planner, "sipplab connectedness:3");
+  EXPECT_EQ(case_row(sweep->cases[2].parameters).planner, "sipplab any-angle:no connectedness:3 turns:yes");
   const db::CaseInfo row = case_row(sweep->cases[1].parameters);
-  EXPECT_EQ(row.planner, "aa-sipp+turns");
+  EXPECT_EQ(row.planner, "sipplab connectedness:3 turns:yes");
   EXPECT_EQ(row.radius_cells, 0);
   EXPECT_EQ(row.speed_cells_per_s, 0);
   const db::ResultRow result =

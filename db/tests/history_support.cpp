@@ -19,7 +19,7 @@ std::string record_version(const std::filesystem::path& file, const Version& ver
   auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
   CaseInfo parameters = sample_case(robots);
   parameters.planner = version.planner;
-  parameters.time_limit_s = version.time_limit_s;
+  parameters.options["time_limit_s"] = version.time_limit_s;
   for (int i = 0; i < version.instances; ++i) {
     ResultRow row = i < version.solved ? sample_result(i) : failed_result();
     row.planning_time_ns = static_cast<std::int64_t>(1e6 * (i + 1) * version.factor);

@@ -15,7 +15,7 @@ struct Version {
   bool dirty = false;
   std::string host = "host";
   int instances = 10;
-  std::string planner = "aa-sipp";
+  std::string planner = "sipplab";
   double time_limit_s = 300;
 };
 

@@ -68,7 +68,7 @@ std::uint64_t digest(std::string_view text) {
 // schemas, and doctor compares the text of each statement.
 TEST_F(Migrations, those_that_were_released_do_not_change) {
   const std::map<int, std::uint64_t> released = {
-      {9, 0x3a642aab45d8d43e}, {10, 0x15550d08521d0194}, {11, 0x8c4ef970db956e9b}};
+      {9, 0x3a642aab45d8d43e}, {10, 0x15550d08521d0194}, {11, 0x8c4ef970db956e9b}, {12, 0x6896b0d9752fbfc9}};
   int expected = released.begin()->first;
   for (const Migration& step : migrations()) {
     EXPECT_EQ(step.version, expected++) << step.name;
@@ -97,7 +97,7 @@ class FirstRelease : public Migrations {
   std::string row_of(const std::string& name) {
     return test::ask(
         file, "SELECT group_concat('quote(' || name || ')', ' || '', '' || ') FROM pragma_table_info('" +
-                  name + "')");
+                  name + "') WHERE name <> 'planner'");  // taken apart by version 12
   }
 
   std::multiset<std::string> rows(const std::string& row, const std::string& name) {
@@ -186,6 +186,53 @@ TEST_F(FirstRelease, merges_into_a_new_file_once) {
   EXPECT_EQ(must(merge_into(database, file)).rows_of("run"), 16);
   EXPECT_TRUE(must(merge_into(database, file)).added.empty());
   test::expect_sound(folder / "new.db");
+}
+
+TEST_F(FirstRelease, planners_are_taken_apart) {
+  const auto add = [this](const std::string& planner, int any_angle, int connectedness) {
+    auto connection = must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
+    must(connection.execute("INSERT INTO case_ SELECT 1000 + count(*), 'e', 'm', 'i', 1, 5.0, '" + planner +
+                                "', 'fifo', 'none', " + std::to_string(any_angle) + ", " +
+                                std::to_string(connectedness) + ", 0.5, 1.0, 300.0, 9, 9, 1 FROM case_",
+                            "adding a case"));
+  };
+  const struct {
+    const char* planner;
+    int any_angle, connectedness;
+    const char* label;
+    const char* columns;
+  } cases[] = {
+      {"aa-sipp", 1, 2, "sipplab", "1.0|0|0.0|0.0|0.0|prioritized|none|0|none|flowtime"},
+      {"sipp+turns", 0, 3, "sipplab any-angle:no connectedness:3 turns:yes",
+       "1.0|1|0.0|0.0|0.0|prioritized|none|0|none|flowtime"},
+      {"aa-sipp+weight:1.05+wait:0.5+distance:0.25+time:2+complete", 1, 2,
+       "sipplab weight:1.05 wait-before-move:0.5 inflate-distance:0.25 inflate-time:2 fallback:complete",
+       "1.05|0|0.5|0.25|2.0|prioritized|complete|0|none|flowtime"},
+      {"aa-sipp+improve:300i,flowtime", 1, 2, "sipplab improve:300i",
+       "1.0|0|0.0|0.0|0.0|prioritized|none|0|300i|flowtime"},
+      {"aa-sipp+complete+best,1:20", 1, 2, "sipplab fallback:complete best:yes objective:1:20",
+       "1.0|0|0.0|0.0|0.0|prioritized|complete|1|none|1:20"},
+      {"complete+best:0.5s,makespan", 0, 2,
+       "sipplab any-angle:no method:complete best:yes improve:0.5s objective:makespan",
+       "1.0|0|0.0|0.0|0.0|complete|none|1|0.5s|makespan"},
+      {"cmd:mine+best,x", 1, 2, "cmd:mine+best,x", "1.0|0|0.0|0.0|0.0|prioritized|none|0|none|flowtime"},
+  };
+  for (const auto& one : cases) add(one.planner, one.any_angle, one.connectedness);
+  must(Database::open(file));
+  std::string id = test::ask(file, "SELECT CAST(min(id) AS TEXT) FROM case_ WHERE environment = 'e'");
+  for (const auto& one : cases) {
+    const std::string from = " FROM case_ WHERE id = " + id;
+    EXPECT_EQ(test::ask(file, "SELECT planner" + from), one.label);
+    EXPECT_EQ(
+        test::ask(
+            file,
+            "SELECT weight || '|' || turns || '|' || wait_before_move_s || '|' || inflate_distance_cells "
+            "|| '|' || inflate_time_s || '|' || method || '|' || fallback || '|' || best || '|' || "
+            "improve || '|' || objective" +
+                from),
+        one.columns);
+    id = std::to_string(std::stoi(id) + 1);
+  }
 }
 
 TEST_F(FirstRelease, becomes_what_a_new_file_is) {

@@ -100,17 +100,18 @@ TEST_F(Recording, cases_come_back_with_all_their_parameters) {
   odd.environment = "empty";
   odd.map_spec = "empty:32x32";
   odd.instance_set = "files";
-  odd.planner = "sipp";
-  odd.order = "random";
-  odd.reschedule = "random";
-  odd.any_angle = false;
-  odd.connectedness = 5;
+  odd.planner = "sipplab weight:1.5";
   odd.radius_cells = 0.3;
   odd.speed_cells_per_s = 2;
-  odd.time_limit_s = test::kInfinity;
-  odd.max_expansions = 1000;
-  odd.max_restarts = 10;
-  odd.seed = std::numeric_limits<std::uint64_t>::max();
+  odd.options["initial_order"] = odd.options["reschedule"] = "random";
+  odd.options["any_angle"] = std::int64_t{0};
+  odd.options["connectedness"] = std::int64_t{5};
+  odd.options["weight"] = 1.5;
+  odd.options["improve"] = "300i";
+  odd.options["time_limit_s"] = test::kInfinity;
+  odd.options["max_expansions"] = std::int64_t{1000};
+  odd.options["max_restarts"] = std::int64_t{10};
+  odd.options["seed"] = std::int64_t{-1};
   auto recorder = begin();
   must(recorder.commit_case(odd));
   must(recorder.commit_case(sample_case(64)));
@@ -127,7 +128,7 @@ TEST_F(Recording, cases_come_back_with_all_their_parameters) {
 TEST_F(Recording, parameters_differ_in_one_field_only_and_are_two_cases) {
   auto recorder = begin();
   CaseInfo other = sample_case(64);
-  other.max_restarts = 1;
+  other.options["max_restarts"] = std::int64_t{1};
   must(recorder.commit_case(sample_case(64)));
   must(recorder.commit_case(other));
   must(recorder.commit_case(sample_case(64, test::kInfinity)));

@@ -1,4 +1,5 @@
 #include "db/tests/support.hpp"
+#include "db/tests/plain_case.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -41,17 +42,9 @@ RunInfo sample_run(const std::string& suite) {
 }
 
 CaseInfo sample_case(std::int64_t robots, double ssi_s) {
-  CaseInfo parameters;
-  parameters.environment = "warehouse";
-  parameters.map_spec = "warehouse";
-  parameters.instance_set = "generated/seed:1";
+  CaseInfo parameters = plain_case();
   parameters.robots = robots;
-  parameters.ssi_s = ssi_s;
-  parameters.planner = "aa-sipp";
-  parameters.order = "shortest";
-  parameters.reschedule = "deterministic";
-  parameters.time_limit_s = 300;
-  parameters.seed = 1;
+  parameters.options["ssi_s"] = ssi_s;
   return parameters;
 }
 

@@ -136,14 +136,14 @@ TEST_F(Trends, of_one_set_nothing_is_said) {
 }
 
 TEST_F(Trends, planners_are_told_apart) {
-  record_version(file, {1, 1, 8, false, "host", 10, "aa-sipp+weight:1.5"});
+  record_version(file, {1, 1, 8, false, "host", 10, "sipplab weight:1.5"});
   record_version(file, {1, 1, 8, false, "host", 10, "cmd:mine"});
-  record_version(file, {1, 1, 8, false, "host", 10, "complete"});
+  record_version(file, {1, 1, 8, false, "host", 10, "sipplab method:complete"});
   const auto series = trend("success");
   ASSERT_EQ(series.size(), 3U);
   std::string labels;
   for (const TrendSeries& one : series) labels += one.label + "\n";
-  for (const char* ending : {", any-angle-4+weight:1.5\n", ", cmd:mine\n", ", complete\n"}) {
+  for (const char* ending : {", sipplab weight:1.5\n", ", cmd:mine\n", ", sipplab method:complete\n"}) {
     EXPECT_NE(labels.find(ending), std::string::npos) << labels;
   }
   CaseFilter filter;
@@ -153,7 +153,7 @@ TEST_F(Trends, planners_are_told_apart) {
 
 TEST_F(Trends, cases_that_differ_in_limits_alone_are_named_apart) {
   for (const double limit_s : {300.0, 60.0, kNoTimeLimit}) {
-    record_version(file, {1, 1, 8, false, "host", 10, "aa-sipp", limit_s}, 64);
+    record_version(file, {1, 1, 8, false, "host", 10, "sipplab", limit_s}, 64);
   }
   record_version(file, {1, 1, 8}, 128);
   const auto series = trend("success");
@@ -161,7 +161,7 @@ TEST_F(Trends, cases_that_differ_in_limits_alone_are_named_apart) {
   std::string labels;
   for (const TrendSeries& one : series) labels += one.label + "\n";
   for (const char* ending :
-       {"any-angle-4, at most 300 s\n", ", at most 60 s\n", ", no time limit\n", "128 robots, "}) {
+       {"sipplab, at most 300 s\n", ", at most 60 s\n", ", no time limit\n", "128 robots, "}) {
     EXPECT_NE(labels.find(ending), std::string::npos) << labels;
   }
   EXPECT_EQ(series.back().label.find("300 s"), std::string::npos) << "one of its kind: " << labels;
@@ -174,11 +174,11 @@ TEST_F(Trends, cases_are_filtered_by_what_they_are) {
   CaseFilter filter;
   filter.robots = 128;
   filter.environment = "warehouse";
-  filter.ssi_s = 5;
+  filter.options["ssi_s"] = 5.0;
   const auto series = trend("success", filter);
   ASSERT_EQ(series.size(), 1U);
   EXPECT_NE(series[0].label.find("128 robots, ssi 5"), std::string::npos) << series[0].label;
-  filter.reschedule = "none";
+  filter.options["reschedule"] = "none";
   EXPECT_TRUE(trend("success", filter).empty());
 }
 

@@ -11,6 +11,7 @@
 #include "db/recorder.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/summaries.hpp"
+#include "db/tests/plain_case.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
@@ -44,23 +45,21 @@ double any_time() {
 }
 
 CaseInfo any_case_info() {
-  CaseInfo info;
+  CaseInfo info = test::plain_case();
   info.environment = *any_text();
   info.map_spec = *any_text();
   info.instance_set = *any_text();
   info.robots = *rc::gen::inRange<std::int64_t>(0, 4);
-  info.ssi_s = any_time();
   info.planner = *any_text();
-  info.order = *any_text();
-  info.reschedule = *any_text();
-  info.any_angle = *rc::gen::arbitrary<bool>();
-  info.connectedness = *rc::gen::inRange<std::int64_t>(2, 6);
   info.radius_cells = any_time();
   info.speed_cells_per_s = any_time();
-  info.time_limit_s = any_time();
-  info.max_expansions = any_count();
-  info.max_restarts = any_count();
-  info.seed = *rc::gen::arbitrary<std::uint64_t>();
+  const auto count = [] { return static_cast<std::int64_t>(std::min(any_count(), kNoCountLimit)); };
+  for (const char* time : {"ssi_s", "time_limit_s"}) info.options[time] = any_time();
+  for (const char* word : {"initial_order", "reschedule", "improve"}) info.options[word] = *any_text();
+  for (const char* limit : {"max_expansions", "max_restarts"}) info.options[limit] = count();
+  info.options["any_angle"] = *rc::gen::element<std::int64_t>(0, 1);
+  info.options["connectedness"] = *rc::gen::inRange<std::int64_t>(2, 6);
+  info.options["seed"] = *rc::gen::arbitrary<std::int64_t>();
   return info;
 }
 

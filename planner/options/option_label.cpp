@@ -1,0 +1,28 @@
+#include "planner/options/option_label.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace sipplab {
+namespace {
+
+constexpr std::string_view kToldBeside[] = {"ssi", "order", "reschedule", "seed"};
+
+bool is_in_label(const Option& option) {
+  const bool beside =
+      std::find(std::begin(kToldBeside), std::end(kToldBeside), option.name) != std::end(kToldBeside);
+  return !beside && option.group != OptionGroup::kLimits && *option.column != '\0';
+}
+
+}  // namespace
+
+std::string label_of(const PlannerOptions& options, OptionRows rows) {
+  std::string label = "sipplab";
+  for (const Option& option : rows) {
+    if (!is_in_label(option) || !differs(option, options)) continue;
+    label.append(" ").append(option.name).append(":").append(option.get(options));
+  }
+  return label;
+}
+
+}  // namespace sipplab
