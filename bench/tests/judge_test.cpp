@@ -199,7 +199,12 @@ TEST(Judgement, WhatTheClockCutShortIsNotCalledTheSame) {
 TEST(Judgement, AnInvalidPlanIsARegressionAlone) {
   std::vector<db::PairedCell> cells = {equal_cell(20)};
   cells[0].results[4].head.status = db::ResultStatus::kInvalid;
+  JudgeOptions allowed;
+  allowed.changed = Verdict::kEquivalent;
   EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kRegressed);
+  EXPECT_EQ(judgement_of(cells, allowed).all.verdict, Verdict::kRegressed);
+  std::swap(cells[0].results[4].base, cells[0].results[4].head);  // the head repairs it
+  EXPECT_EQ(judgement_of(cells, allowed).all.verdict, Verdict::kEquivalent);
 }
 
 TEST(Judgement, LongerFlowtimesCountWhenCertainAndLarge) {
