@@ -18,8 +18,8 @@ std::filesystem::path database_path(const std::optional<std::string>& option);
 class Database {
  public:
   /// Opens for writing; a file that is missing or empty becomes a fresh history, an
-  /// older one is migrated. A file that is something else, or newer than this
-  /// program, is refused and stays as it is, byte for byte.
+  /// older one is migrated. A file that is something else, newer than this program, or
+  /// older than the first release is refused and stays as it is, byte for byte.
   static Result<Database> open(const std::filesystem::path& path);
 
   /// Opens for reading; a missing file is an error. An older history is migrated

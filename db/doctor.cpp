@@ -105,7 +105,8 @@ class Examination {
     for (const auto& [name, sql] : *expected) {
       const auto here = found->find(name);
       if (here != found->end() && here->second == sql) continue;
-      add(fmt::format("{} {}", name, here == found->end() ? "is missing" : "is not what the migrations make"),
+      add(fmt::format("{} {}", name,
+                      here == found->end() ? "is missing" : "differs from what the migrations create"),
           "merge it into a new file, which has the right schema: sipplab merge FILE --db NEW-FILE");
     }
     return Done{};
@@ -144,7 +145,7 @@ class Examination {
     if (!rows) return Unexpected{rows.error()};
     for (const std::string& row : *rows) {
       add(row,
-          "results were changed behind the recorder's back: exclude the run with "
+          "another program changed results: exclude the run with "
           "`sipplab runs --exclude RUN --reason ...`");
     }
     return Done{};
@@ -159,7 +160,7 @@ class Examination {
                            : count_stale_summaries(connection_);
     if (!stale) return Unexpected{stale.error()};
     if (*stale == 0) return Done{};
-    return add_fixable(fmt::format("{} cells whose summary is missing or not what their results say", *stale),
+    return add_fixable(fmt::format("{} cells whose summary is missing or differs from their results", *stale),
                        "sipplab doctor --fix makes them anew from the results",
                        [this] { return rebuild_summaries(connection_); });
   }
@@ -176,11 +177,11 @@ class Examination {
     });
     if (!read) return read;
     for (const auto& [uuid, suite] : dead) {
-      auto done = add_fixable(
-          fmt::format("run {} of suite {} was killed", uuid.substr(0, kShortUuid), suite),
-          "its command with --resume does the rest; sipplab doctor --fix closes it as aborted, which can "
-          "still be resumed",
-          [this, run = uuid] { return close_run(run); });
+      auto done = add_fixable(fmt::format("run {} of suite {} was killed", uuid.substr(0, kShortUuid), suite),
+                              "its command with --resume plans the remaining cases; sipplab doctor --fix "
+                              "closes it as aborted, which can "
+                              "still be resumed",
+                              [this, run = uuid] { return close_run(run); });
       if (!done) return done;
     }
     return Done{};

@@ -21,8 +21,8 @@ struct MergeReport {
 
 /// Adds what `source` has and `database` has not, in one transaction. A row is known by the
 /// columns of any unique index of its table: a run by its UUID, a case by its parameters.
-/// Doing it again adds nothing. Where both have a run, the state that is further on stays,
-/// and of its exclusion and inclusion the later one; rows of results are never changed.
+/// Doing it again adds nothing. If both have a run, its later state stays,
+/// and the later of its exclusion and inclusion; rows of results are never changed.
 /// New runs get the name of the file as their origin, unless they have one.
 Result<MergeReport> merge_into(Database& database, const std::filesystem::path& source);
 

@@ -92,6 +92,17 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
   return align(heading, rows, to_the_right);
 }
 
+/// A single wide row reads better as a line for each column that has a value.
+Table upright(const Table& table) {
+  if (table.rows.size() != 1) return table;
+  Table lines{{"column", "value"}, {}};
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Value& value = table.rows.front()[i];
+    if (!std::holds_alternative<Null>(value)) lines.rows.push_back({table.columns[i], value});
+  }
+  return lines;
+}
+
 std::string describe(const RunSummary& run) {
   std::string text = fmt::format("run       {}\n", run.uuid);
   text += fmt::format("{:<9} {}, {}\n", run.kind == "sweep" ? "suite" : run.kind, run.suite,
@@ -127,7 +138,7 @@ std::string format_run_report(const RunReport& report, OutputFormat format) {
   switch (format) {
     case OutputFormat::kTable: {
       const std::string cells = report.cells.empty() ? "no finished case\n" : format_cells(report.cells);
-      return describe(report.run) + '\n' + (sweep ? cells : format_aligned(report.details));
+      return describe(report.run) + '\n' + (sweep ? cells : format_aligned(upright(report.details)));
     }
     case OutputFormat::kCsv:
       return format_csv(sweep ? table_of(report.cells) : report.details);
