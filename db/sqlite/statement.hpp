@@ -42,12 +42,6 @@ class Statement {
     bind_one(index, value);
   }
 
-  /// Binds one value, to parameter ?INDEX.
-  template <class T>
-  void bind_at(int index, const T& value) {
-    bind_one(index, value);
-  }
-
   /// True when a row is there, false at the end.
   Result<bool> step();
   /// Calls `each` in every row that is left.
