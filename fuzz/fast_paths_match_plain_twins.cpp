@@ -75,8 +75,7 @@ PlainTable twin_of(const Traffic& traffic) {
       twin.disks.push_back(MovingDisk::moving(Displacement(centre(motion.from), centre(motion.to)),
                                               motion.begin_s, motion.end_s, radius));
     }
-    twin.disks.push_back(
-        MovingDisk::resting(centre(trajectory.end()), trajectory.arrival_s(), kForever, radius));
+    twin.disks.push_back(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, radius));
   }
   return twin;
 }
@@ -151,11 +150,11 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   const Arrival weighted = search(plan_case, agent, traffic, options);
   require_twins(weighted.found == grid.found, "found with one weight of the heuristic only");
   options.any_angle = true;
-  const Arrival straightened = search(plan_case, agent, traffic, options);
-  options.straighten = false;
+  const Arrival tight = search(plan_case, agent, traffic, options);
+  options.elastic = false;
   const Arrival bent = search(plan_case, agent, traffic, options);
-  require_twins(straightened.found == bent.found, "found only where straightened");
-  require_twins(straightened.arrival_s <= bent.arrival_s, "straightened and later");
+  require_twins(tight.found == bent.found, "found only where pulled tight");
+  require_twins(tight.arrival_s <= bent.arrival_s, "pulled tight and later");
   if (!grid.found) return;
   require_twins(weighted.arrival_s <= options.weight * grid.arrival_s + kArrivalS,
                 "later than the weight allows");

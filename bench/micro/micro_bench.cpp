@@ -111,10 +111,10 @@ void quick_test_of_a_departure(benchmark::State& state) {
   std::size_t next = 0;
   for ([[maybe_unused]] auto iteration : state) {
     const Encounter& encounter = encounters[next++ % kInputs];
-    benchmark::DoNotOptimize(may_be_unsafe(encounter.move, 0, encounter.disk, 2 * kDefaultRadiusCells));
+    benchmark::DoNotOptimize(closeness(encounter.move, 0, encounter.disk, 2 * kDefaultRadiusCells));
   }
 }
-BENCHMARK(quick_test_of_a_departure)->Name("geometry/may_be_unsafe");
+BENCHMARK(quick_test_of_a_departure)->Name("geometry/closeness");
 
 /// The warehouse with a solved crowd in it; the last robot of the order is left out, so
 /// that it can be planned again and again.
@@ -235,17 +235,17 @@ BENCHMARK(search_with_detours)
     ->Arg(0)
     ->Unit(benchmark::kMicrosecond);
 
-/// Argument: 1 with the way straightened at the end, 0 for the plain twin.
+/// Argument: 1 with the way pulled tight at the end.
 void weighted_search(benchmark::State& state) {
   constexpr double kBendingWeight = 1.5;  // large enough to leave bends behind
   SippOptions options;
   options.weight = kBendingWeight;
-  options.straighten = state.range(0) != 0;
+  options.elastic = state.range(0) != 0;
   search_in_a_crowd(state, options);
 }
 BENCHMARK(weighted_search)
     ->Name("search/weighted")
-    ->ArgName("straighten")
+    ->ArgName("elastic")
     ->Arg(1)
     ->Arg(0)
     ->Unit(benchmark::kMicrosecond);

@@ -72,9 +72,9 @@ says '"status": "limit"'
 
 # Robots that meet in a corridor with one bay: prioritized planning fails, the fallback does not.
 printf '<root><agents number="2"><agent start.x="0" start.y="0" goal.x="4" goal.y="0"/><agent start.x="4" start.y="0" goal.x="0" goal.y="0"/></agents><map><grid width="5" height="2"><row>0 0 0 0 0</row><row>1 1 0 1 1</row></grid></map></root>' >bay.xml
-expect 1 plan --instance bay.xml --reschedule none
+expect 1 plan --instance bay.xml --reschedule none --no-any-angle
 for format in xml json; do
-  expect 0 plan --instance bay.xml --reschedule none --fallback complete -o "bay.$format.out" --format "$format"
+  expect 0 plan --instance bay.xml --reschedule none --no-any-angle --fallback complete -o "bay.$format.out" --format "$format"
   says '^made by     the complete planner'
   expect 0 validate --instance bay.xml --solution "bay.$format.out"
   says '^valid.*start-safe interval [0-9.]+ kept'

@@ -54,27 +54,43 @@ inline bool passes_by(const Displacement& way, Vec2 place, double reach) {
 /// rest is for rounding.
 inline constexpr double kNearMissCells = 4 * kContactSlackCells;
 
-/// Whether the two come nearer than their reach, or nearly so: a quick test, without roots
-/// or divisions, that decides most departures.
-///  (1) True for every departure that unsafe_departures contains, so skipping the others
-///      changes no answer.
-///  (2) False where the two stay apart by kNearMissCells or more in the time that they share.
+/// Cells. Who is nearer by so much overlaps, whatever slacks and roundings say.
+inline constexpr double kSureOverlapCells = 1e-7;
+
+enum class Closeness { kApart, kTouching, kOverlapping };
+
+/// How near the two come to each other: a quick test, without roots or divisions, that decides most
+/// departures.
+///  (1) kApart for no departure that unsafe_departures contains, so skipping them changes no answer.
+///  (2) kApart where the two stay apart by kNearMissCells or more in the time that they share.
+///  (3) kOverlapping only for departures that unsafe_departures contains.
 /// Inline: the planner asks it many times for each interval that it computes.
-inline bool may_be_unsafe(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
+inline Closeness closeness(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
   const double begin_s = std::max(departure_s, obstacle.begin_s);
   const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
   const double span_s = end_s - begin_s;
-  if (span_s * move.speed < -kNearMissCells) return false;
+  if (span_s * move.speed < -kNearMissCells) return Closeness::kApart;
   const double far = reach + kNearMissCells;
   const Vec2 relative = move.velocity - obstacle.velocity;
   const Vec2 apart = (move.way.from + move.velocity * (begin_s - departure_s)) -
                      (obstacle.from + obstacle.velocity * (begin_s - obstacle.begin_s));
   const double approach = -dot(apart, relative);
-  if (approach <= 0) return squared_norm(apart) < far * far;
+  double squared = 0;  // of their least distance, `scale` times
+  double scale = 1;
   const double relative_squared = squared_norm(relative);
-  if (approach >= relative_squared * span_s) return squared_norm(apart + relative * span_s) < far * far;
-  const double aside = cross(apart, relative);
-  return aside * aside < far * far * relative_squared;
+  if (approach <= 0) {
+    squared = squared_norm(apart);
+  } else if (approach >= relative_squared * span_s) {
+    squared = squared_norm(apart + relative * span_s);
+  } else {
+    const double aside = cross(apart, relative);
+    squared = aside * aside;
+    scale = relative_squared;
+  }
+  if (!(squared < far * far * scale)) return Closeness::kApart;
+  const double sure = reach - kSureOverlapCells;
+  const bool overlapping = sure > 0 && span_s > 0 && squared < sure * sure * scale;
+  return overlapping ? Closeness::kOverlapping : Closeness::kTouching;
 }
 
 }  // namespace sipplab

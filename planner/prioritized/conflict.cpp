@@ -34,7 +34,7 @@ bool overlap(const Agent& agent, const TimedMotion& mine, double other_radius_ce
     return !near.empty() && near.begin_s < mine.end_s && near.end_s > mine.begin_s;
   }
   const Move move(Displacement(centre(mine.from), centre(mine.to)), agent.speed_cells_per_s);
-  return may_be_unsafe(move, mine.begin_s, disk, reach) &&
+  return closeness(move, mine.begin_s, disk, reach) != Closeness::kApart &&
          unsafe_departures(move, disk, reach).contains(mine.begin_s);
 }
 

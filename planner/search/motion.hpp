@@ -35,6 +35,7 @@ class PlainMotion {
   static double known_s(const Nodes& nodes, NodeId id, Heading) { return nodes[id].arrival_s; }
   /// The node that stands for an earlier arrival, facing this way.
   static NodeId node_for(Nodes&, NodeId id, Heading, double) { return id; }
+  static void face(Node&, Heading) {}
   /// Adds the turn to this heading; when it is done.
   static double turn(const Node& at, Heading, Trajectory&) { return at.arrival_s; }
   static void turn_at_goal(const Node&, Trajectory&) {}
@@ -94,6 +95,7 @@ class TurningMotion {
     nodes[id].to_goal_s = to_goal_s;
     return id;
   }
+  static void face(Node& node, Heading heading) { node.heading_deg = heading; }
   double turn(const Node& at, Heading to, Trajectory& trajectory) const {
     const double end_s = at.arrival_s + turn_s(at.heading_deg, to);
     if (end_s > at.arrival_s) {

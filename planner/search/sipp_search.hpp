@@ -26,11 +26,9 @@ struct SippOptions {
   /// steps takes less, but some any-angle way may, and may be missed where it alone is in time for a latest
   /// arrival. Off: the plain bound, as on an empty map.
   bool detours = true;
-  /// Weighted, at any angle: leave out those bends of the way that was found behind which a straight way
-  /// from the bend before is safe and earlier. The arrival is never later. (Trials on the paper's instances,
-  /// 50 a cell, weight 1.2: a quarter to a half of the flowtime that the weight costs on empty maps and with
-  /// up to 32 robots in the warehouse, nothing with more.)
-  bool straighten = true;
+  /// At any angle: pull the way that was found tight. Bends are left out or moved to a cell beside them where
+  /// that is safe; nobody is later at any stop.
+  bool elastic = true;
 };
 
 /// The search for one kind of robot. `Motion` is a policy as in motion.hpp.
@@ -99,11 +97,11 @@ class Sipp final : public SingleAgentPlanner {
   }
   /// Whether an arrival that leaves nothing to gain was found after this was queued.
   bool is_overtaken(const OpenList::Entry& entry) const;
-  Heading heading_of(NodeId from, NodeId to) const {
-    return motion_.heading(nodes_[from].cell(), nodes_[to].cell());
+  Heading heading_of(const Node& from, const Node& to) const {
+    return motion_.heading(from.cell(), to.cell());
   }
-  /// Whether `from` lies on the straight line from `parent` to node `id`.
-  bool is_on_the_way(NodeId parent, NodeId from, NodeId id) const;
+  /// Whether `middle` lies on the straight line between the two others.
+  static bool is_on_the_way(const Node& first, const Node& middle, const Node& last);
 
   void expand(NodeId id);
   Way way(NodeId from, Cell to, double cells) const;
@@ -126,8 +124,8 @@ class Sipp final : public SingleAgentPlanner {
     double departure_s = 0;
     return arrive(from, id, 0, tie, nullptr, departure_s);
   }
-  /// The same for any straight way on which no departure before `known_s` is safe. What is asked of the
-  /// reservations then, if anything, is answered in `departure_s`.
+  /// The same for any straight way on which no departure before `known_s` is safe. `departure_s` is as of
+  /// leg().
   NodeId arrive(NodeId from, NodeId id, double known_s, Tie tie, ReservationTable::DiskId* likely_blocker,
                 double& departure_s);
   /// Reaches the goal by the straight way from the node, if that is safe when it is left at once, or in time
@@ -135,12 +133,25 @@ class Sipp final : public SingleAgentPlanner {
   NodeId shoot(NodeId id);
   /// What is handed over once the goal's node is reached.
   Trajectory finish(NodeId goal);
+  /// The earliest way straight between two stops, in the safe interval of each, with no departure before
+  /// `known_s` and no arrival after `latest_s`: whether there is one. What is asked of the reservations, if
+  /// anything, is answered in `departure_s`, and is a lower bound on it where there is none.
+  bool leg(const Node& from, const Node& to, double known_s, double latest_s,
+           ReservationTable::DiskId* likely_blocker, double& departure_s, double& arrival_s);
+
+  using Stops = std::vector<Node>;
   /// From the start.
-  std::vector<NodeId> way_to(NodeId goal) const;
-  /// Lowers arrivals along the way by straight ways that leave out bends. REQUIRES: any-angle.
-  void straighten(std::span<const NodeId> way);
-  /// Any-angle steps that go on in one line are one motion.
-  Trajectory reconstruct(std::span<const NodeId> way) const;
+  Stops stops_to(NodeId goal) const;
+  /// Leaves out stops at which the robot goes on at once in the same line.
+  static void join_lines(Stops& stops);
+  /// As of SippOptions::elastic.
+  void pull_tight(Stops& stops);
+  /// Goes from stop i to stop k by nothing but the bend, if any, where that is safe, arrives by `latest_s`,
+  /// and is no later at any stop behind: whether that is so.
+  bool reroute(Stops& stops, std::size_t i, std::size_t k, Node* bend, double latest_s);
+  /// Sets when and how the robot comes to a stop from the one before: whether it can by then.
+  bool move(const Node& from, Node& to, double latest_s, ReservationTable::DiskId* likely_blocker = nullptr);
+  Trajectory reconstruct(const Stops& stops) const;
 
   const Instance& instance_;
   SippOptions options_;

@@ -176,6 +176,7 @@ std::vector<double> times_at_the_ends(const OpenInterval& unsafe, double slack_s
 
 void check_quick_test(const std::vector<Encounter>& encounters) {
   Seen seen;
+  int sure = 0;
   for (const Encounter& encounter : encounters) {
     RC_LOG() << encounter << std::endl;
     const Question question = departures_of(encounter);
@@ -185,8 +186,11 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
     const std::vector<double> ends = times_at_the_ends(question.unsafe, question.slack_s);
     times.insert(times.end(), ends.begin(), ends.end());
     for (const double departure_s : times) {
-      const bool quick = may_be_unsafe(move, departure_s, disk, encounter.reach());
+      const Closeness close = closeness(move, departure_s, disk, encounter.reach());
+      const bool quick = close != Closeness::kApart;
       if (question.unsafe.contains(departure_s)) RC_ASSERT(quick);
+      if (close == Closeness::kOverlapping) RC_ASSERT(question.unsafe.contains(departure_s));
+      sure += close == Closeness::kOverlapping;
       const double margin_s = kNearMissCells / move.speed + question.rounding_s;
       const bool together =
           departure_s > question.first_s - margin_s && departure_s < question.last_s + margin_s;
@@ -198,6 +202,7 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
     }
     seen.add(question.bisected, question.reach);
   }
+  RC_CLASSIFY(sure > 0, "some surely overlap");
   seen.classify();
 }
 
@@ -235,8 +240,9 @@ int main() {
   passed &= property("collision_interval (1)(3): overlap inside, none outside, contact at the ends",
                      [] { check_collisions(*any_encounters()); });
 
-  passed &= property("may_be_unsafe (1)(2): misses no unsafe departure, leaves out those far apart",
-                     [] { check_quick_test(*any_encounters()); });
+  passed &= property(
+      "closeness (1)(2)(3): misses no unsafe departure, leaves out those far apart, is sure of overlaps",
+      [] { check_quick_test(*any_encounters()); });
 
   passed &= property("intrudes: agrees with samples of the way", [] {
     constexpr int kWays = 10;
