@@ -126,7 +126,7 @@ refused 'is a file|File exists|Not a directory|expected a folder' report -o tren
 
 cat >report.json <<'JSON'
 {"context": {"date": "2026-01-31T13:00:00+01:00", "host_name": "elsewhere", "executable": "./sort_bench", "num_cpus": 4,
-             "library_build_type": "release", "compiler": "gcc 14"},
+             "library_build_type": "release"},
  "benchmarks": [
   {"name": "sort/8", "run_name": "sort/8", "run_type": "iteration", "repetition_index": 0, "iterations": 10,
    "real_time": 1.5, "cpu_time": 1.25, "time_unit": "us", "items_per_second": NaN, "items": 8},
@@ -137,20 +137,16 @@ cat >report.json <<'JSON'
   {"name": "on_gpu", "run_type": "iteration", "iterations": 0, "real_time": 0.0, "cpu_time": 0.0, "time_unit": "ns",
    "skipped": true, "skip_message": "no GPU here"},
   {"name": "sort/8_mean", "run_name": "sort/8", "run_type": "aggregate", "aggregate_name": "mean", "iterations": 2,
-   "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us"},
-  {"name": "only/mean_mean", "run_name": "only/mean", "run_type": "aggregate", "aggregate_name": "mean", "threads": 4,
-   "iterations": 2, "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us", "label": "-O3"}]}
+   "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us"}]}
 JSON
 expect 0 import google-benchmark report.json --commit 0123456789abcdef --subject 'Sort faster'
-says 'suite sort_bench, 5 measurements$'
+says 'suite sort_bench, 4 measurements$'
 expect 0 import google-benchmark report.json --commit 0123456789abcdef --json
 says '"known": true'
 equal "$(ask "SELECT group_concat(real_time_ns) FROM v_measurements WHERE benchmark = 'sort/8'")" 1500.0,2000.0 "imported times"
 expect 0 trend benchmark-time
 says '^sort/8, sort_bench, elsewhere release$'
 says '0123456789  2026-01-31 +1.75 us +2 .*Sort faster'
-equal "$(ask "SELECT DISTINCT context, threads, label, aggregate FROM v_measurements WHERE benchmark = 'only/mean'")" \
-  'compiler=gcc 14|4|-O3|mean' "context, threads, label and kind of an imported measurement"
 equal "$(ask "SELECT error FROM v_measurements WHERE benchmark LIKE 'nan/inf%'")" "no input" "imported error"
 equal "$(ask "SELECT error, real_time_ns IS NULL FROM v_measurements WHERE benchmark = 'on_gpu'")" \
   'skipped: no GPU here|1' "what was skipped took no time"
@@ -164,6 +160,14 @@ sed 's/2026-01-31T13:00:00+01:00/2026-03-01T00:30:00Z/; s/elsewhere/in UTC/' rep
 expect 0 import google-benchmark dated.json --commit 0123456789abcdef
 equal "$(ask "SELECT DISTINCT v_measurements.started_utc FROM v_measurements JOIN run ON run.uuid = run WHERE host = 'in UTC'")" \
   '2026-03-01T00:30:00.000Z' "a date in UTC"
+cat >aggregates.json <<'JSON'
+{"context": {"date": "2020-06-09 17:58:05", "executable": "C:\\bench\\other.exe", "compiler": "gcc 14"}, "benchmarks": [
+  {"name": "only/mean_mean", "run_name": "only/mean", "run_type": "aggregate", "aggregate_name": "mean", "threads": 4,
+   "iterations": 2, "real_time": 1.75, "cpu_time": 1.6, "time_unit": "us", "label": "-O3"}]}
+JSON
+expect 0 import google-benchmark aggregates.json
+equal "$(ask "SELECT suite, context, threads, label, aggregate FROM v_measurements WHERE benchmark = 'only/mean'")" \
+  'other|compiler=gcc 14|4|-O3|mean' "what an imported measurement says of itself"
 printf '{"context": {}\n, "benchmarks": [' >cut.json
 refused '^cut.json:2: not JSON' import google-benchmark cut.json
 echo '{"context": {}, "benchmarks": [{"name": "a", "real_time": 1e400}]}' >large.json
