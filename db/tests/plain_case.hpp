@@ -7,7 +7,7 @@
 
 namespace sipplab::db::test {
 
-inline CaseInfo plain_case() {
+inline CaseInfo read_plain_case() {
   auto connection = sqlite::Connection::open_in_memory().value();
   migrate(connection, migrations()).value();
   const char* insert = R"(
@@ -19,6 +19,12 @@ inline CaseInfo plain_case() {
   auto select = sqlite::Statement::prepare(connection, "SELECT * FROM case_", "reading a case").value();
   select.step().value();
   return read_case(select, 0);
+}
+
+/// Made once: migrating takes longer than most tests.
+inline const CaseInfo& plain_case() {
+  static const CaseInfo made = read_plain_case();
+  return made;
 }
 
 }  // namespace sipplab::db::test
