@@ -219,11 +219,14 @@ int run_plan(const PlanArguments& arguments) {
 
 Command add_plan_command(CLI::App& program) {
   auto arguments = std::make_shared<PlanArguments>();
-  CLI::App* command = program.add_subcommand("plan", "plan one instance; exit code 1 where it is not solved");
+  CLI::App* command = program.add_subcommand("plan", "plan one instance; exit code 1 if it is not solved");
   arguments->instance.add_to(*command);
   arguments->options.add_to(*command, {OptionGroup::kPlanner, OptionGroup::kMotion, OptionGroup::kLimits,
                                        OptionGroup::kImprovement});
-  command->add_option("--format", arguments->format, "of the solution; default by the name of -o, else xml")
+  command->option_defaults()->group("Output");
+  command
+      ->add_option("--format", arguments->format,
+                   "format of the solution; default: by the suffix of -o, else xml")
       ->check(CLI::IsMember({"xml", "json", "csv"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");
   arguments->picture.add_to(*command, "draw the solution there");

@@ -14,6 +14,20 @@ std::string expected(const std::string& text, const std::string& what) {
   return in_quotes(text) + ", expected " + what;
 }
 
+const char* title(OptionGroup group) {
+  switch (group) {
+    case OptionGroup::kPlanner:
+      return "Planner";
+    case OptionGroup::kMotion:
+      return "Motion";
+    case OptionGroup::kLimits:
+      return "Limits";
+    case OptionGroup::kImprovement:
+      return "Improvement";
+  }
+  return "Options";
+}
+
 }  // namespace
 
 std::string check_ssi(const std::string& text) {
@@ -36,15 +50,17 @@ CLI::Validator real_between(double low, double high) {
 }
 
 void InstanceFlags::add_to(CLI::App& command) {
+  command.option_defaults()->group("Input");
   command.add_option("--instance", files_.instance,
                      "instance in one file (XML, or a .scen that names its map)");
   command.add_option("--map", files_.map, "map (XML or MovingAI .map)");
   command.add_option("--task", files_.task, "agents (XML or MovingAI .scen)");
-  command.add_option("--config", files_.config, "planner options (XML); flags here go before them");
+  command.add_option("--config", files_.config, "planner options (XML); command-line flags override it");
   command.add_option("--obstacles", files_.obstacles, "dynamic obstacles (XML)");
   command.add_option("--agents", files_.agents, "only the first N agents");
   command.add_flag("--allow-unreachable", files_.allow_unreachable,
                    "take instances in which a goal cannot be reached");
+  command.option_defaults()->group("Options");
 }
 
 Expected<LoadedInstance, std::string> InstanceFlags::load() const {
@@ -71,10 +87,12 @@ CLI::Option* OptionFlags::add(CLI::App& command, const Option& option, bool many
   if (is_choice) {
     // By way of a function: a flag bound to a value would count from 0, which is false.
     const auto take_count = [take](std::int64_t count) { take({count > 0 ? "yes" : "no"}); };
-    return command.add_flag_function(flag + ",!--no-" + option.name, take_count, option.help)->check(check);
+    return command.add_flag_function(flag + ",!--no-" + option.name, take_count, option.help)
+        ->check(check)
+        ->group(title(option.group));
   }
   CLI::Option* added = command.add_option_function<std::vector<std::string>>(flag, take, option.help);
-  added->check(check)->type_name(option.value);
+  added->check(check)->type_name(option.value)->group(title(option.group));
   return many || option.is_list ? added->delimiter(',') : added->expected(1);
 }
 
@@ -98,13 +116,12 @@ StatedOptions OptionFlags::stated() const {
 }
 
 void PictureFlags::add_to(CLI::App& command, const std::string& words) {
-  CLI::Option* svg = command.add_option("--svg", file, words)->type_name("FILE");
-  command
-      .add_option("--animate", animate_,
-                  "a picture that moves, so many seconds of the plan in one of its own")
+  CLI::Option* svg = command.add_option("--svg", file, words)->type_name("FILE")->group("Output");
+  command.add_option("--animate", animate_, "animate the picture; 2 is twice as fast as the plan")
       ->needs(svg)
       ->check(check_positive_real)
-      ->type_name("SPEED");
+      ->type_name("SPEED")
+      ->group("Output");
 }
 
 double PictureFlags::animation_speed() const { return animate_ ? parse_real(*animate_).value_or(1) : 0; }

@@ -67,7 +67,8 @@ int run_plot(const PlotArguments& arguments) {
   const auto filter = parse_case_filter(arguments.cases);
   if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
   if (filter->id)
-    return fail(kBadUsage, "sipplab: --case of one number, expected what the cases have for a picture");
+    return fail(kBadUsage,
+                "sipplab: --case with a case's number, expected values of columns such as robots=64");
   const auto runs = read_runs(arguments);
   if (!runs) return fail(runs.error());
   const bench::Chart chart = arguments.kind == "figure1"  ? bench::figure_chart(runs->paper_cells)

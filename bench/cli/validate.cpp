@@ -151,7 +151,7 @@ int run_validate(const ValidateArguments& arguments) {
 
 Command add_validate_command(CLI::App& program) {
   auto arguments = std::make_shared<ValidateArguments>();
-  CLI::App* command = program.add_subcommand("validate", "check a solution; exit code 1 where it is invalid");
+  CLI::App* command = program.add_subcommand("validate", "check a solution; exit code 1 if it is invalid");
   arguments->instance.add_to(*command);
   command->add_option("--solution", arguments->solution, "solution (XML, JSON, CSV or plain lines)")
       ->required()

@@ -94,13 +94,8 @@ equal "$(ask 'SELECT count(*) FROM (SELECT flowtime_s FROM v_progress GROUP BY r
   JOIN (SELECT DISTINCT flowtime_s FROM v_results) USING (flowtime_s)')" 2 'curves end at the plan'
 equal "$(ask 'SELECT count(DISTINCT flowtime_s) FROM v_progress WHERE iteration = 0')" 2 \
   'curves begin with the plan of the complete planner, then that of another method'
-<<<<<<< HEAD
 expect 0 "${sweep[@]}" --no-best --improve 0.05s --objective makespan
 equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner LIKE '% improve:0.05s objective:makespan'")" \
-=======
-expect 0 "${sweep[@]}" --improve 0.05s --objective makespan
-equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner LIKE '% improve:0.05s objective:makespan'")" \
->>>>>>> cc1f60b (WIP next)
   'time|solved' 'the clock ended the improvement'
 
 # --- a signal -------------------------------------------------------------------------

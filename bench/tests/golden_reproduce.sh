@@ -53,7 +53,7 @@ expect 0 plot runtime latest --case environment=warehouse --case reschedule=dete
 says '<svg'
 says 'warehouse, .*deterministic'
 refused 'expected no --case' plot figure1 --case robots=32
-refused 'expected environment' plot runtime --case 7
+refused 'expected values of columns such as robots=64' plot runtime --case 7
 refused 'shows one run' plot figure1 latest latest
 expect 4 plot runtime --case robots=33
 says 'nothing to draw' err
