@@ -51,8 +51,12 @@ TEST(ChangePoints, a_step_is_found_at_its_first_point) {
 
 TEST(ChangePoints, steps_up_and_down_are_found_in_noise) {
   Random random{7};
-  const auto values =
-      joined(joined(noisy(random, 60, 10, 1), noisy(random, 50, 13, 1)), noisy(random, 70, 9.5, 1));
+  // Drawn one after the other: compilers differ in the order in which they evaluate arguments. One series in
+  // twenty is divided without need, and this is none of them.
+  const auto last = noisy(random, 70, 9.5, 1);
+  const auto middle = noisy(random, 50, 13, 1);
+  const auto first = noisy(random, 60, 10, 1);
+  const auto values = joined(joined(first, middle), last);
   const std::vector<std::size_t> positions = accepted(values);
   ASSERT_EQ(positions.size(), 2U);
   EXPECT_NEAR(static_cast<double>(positions[0]), 60, 2);
@@ -71,7 +75,8 @@ TEST(ChangePoints, noise_alone_is_divided_as_rarely_as_promised) {
 
 TEST(ChangePoints, the_same_series_gives_the_same_answer) {
   Random random{3};
-  const auto values = joined(noisy(random, 20, 1, 1), noisy(random, 20, 1.6, 1));
+  const auto low = noisy(random, 20, 1, 1);
+  const auto values = joined(low, noisy(random, 20, 1.6, 1));
   const auto first = divide(values);
   const auto second = divide(values);
   ASSERT_EQ(first.size(), second.size());
