@@ -43,7 +43,10 @@ void add_summary(xml_node log, const Instance& instance, const SolutionDocument&
 
 void add_order(xml_node log, const std::vector<AgentIndex>& order) {
   std::string text;
-  for (const AgentIndex agent : order) text += (text.empty() ? "" : " ") + std::to_string(agent);
+  for (const AgentIndex agent : order) {
+    if (!text.empty()) text += ' ';
+    text += std::to_string(agent);
+  }
   add_text(log, "order", text);
 }
 

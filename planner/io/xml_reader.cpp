@@ -26,7 +26,11 @@ bool is_text(pugi::xml_node node) {
   return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
 }
 
-std::string tag(pugi::xml_node node) { return "<" + std::string(node.name()) + ">"; }
+std::string tag(pugi::xml_node node) {
+  std::string text = "<";
+  text += node.name();
+  return text += '>';
+}
 
 std::string shown(pugi::xml_node node, const char* attribute, std::string_view value) {
   return std::string(attribute) + " " + in_quotes(value) + " in " + tag(node);

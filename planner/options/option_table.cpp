@@ -124,7 +124,10 @@ Option intervals(Option option) {
   option.expected = "seconds from 0 to " + format_ssi(kMaxSsiS) + ", or inf";
   option.get = [](const PlannerOptions& options) {
     std::string text = format_ssi(options.ssi_s);
-    for (const double longer_s : options.longer_ssi_s) text += "," + format_ssi(longer_s);
+    for (const double longer_s : options.longer_ssi_s) {
+      text += ',';
+      text += format_ssi(longer_s);
+    }
     return text;
   };
   option.set = [](PlannerOptions& options, std::string_view text) {
