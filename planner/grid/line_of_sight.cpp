@@ -8,59 +8,68 @@
 namespace sipplab {
 namespace {
 
-/// The capsule around a segment from the origin to (dx, dy), dx >= 0 and dy >= 0.
-struct Capsule {
-  double dx;
-  double dy;
-  double radius;
-  double length;
-
-  /// The greatest x of the capsule at height y, for y within its extent. The right
-  /// boundary is an arc around the origin, a line parallel to the segment, and an arc
-  /// around the end, in the order of growing y.
-  double right_at(double y) const {
-    const double drop = length > 0 ? radius * dx / length : 0;
-    if (y >= dy - drop) return dx + half_chord(y - dy);
-    if (y <= -drop) return half_chord(y);
-    return (y + drop) * dx / dy + radius * dy / length;
+/// The capsule around a segment from the origin to (dx, dy), dx >= 0 and dy >= 0, and its right boundary: an
+/// arc around the origin, a line parallel to the segment, and an arc around the end, in the order of growing
+/// y.
+class Capsule {
+ public:
+  Capsule(Cell displacement, double radius) : dx_(displacement.x), dy_(displacement.y), radius_(radius) {
+    const double length = norm({dx_, dy_});
+    if (length > 0) drop_ = radius * dx_ / length;
+    if (dy_ > 0) slope_ = dx_ / dy_, aside_ = radius * dy_ / length;
   }
 
-  /// The greatest x over heights in [low, high]. The boundary is concave in y and
-  /// greatest at y = dy.
-  double right_over(double low, double high) const {
-    low = std::max(low, -radius);
-    high = std::min(high, dy + radius);
-    if (dy < low) return right_at(low);
-    if (dy > high) return right_at(high);
-    return dx + radius;
+  /// The run of columns that it overlaps in a row of cells.
+  CellRun run(std::int32_t row) const {
+    const double low = row - kHalfCell;
+    const double high = row + kHalfCell;
+    if (low >= dy_ + radius_ - kTouchDepthCells || high <= -radius_ + kTouchDepthCells) return {};
+    // The capsule is its own image under a half turn about the segment's middle.
+    const double left = dx_ - right_over(dy_ - high, dy_ - low);
+    const double right = right_over(low, high);
+    // A cell from c - 0.5 to c + 0.5 is overlapped when left < c + 0.5 and c - 0.5 < right.
+    return {-ceil_of(kHalfCell - left - kTouchDepthCells) + 1,
+            ceil_of(right - kTouchDepthCells + kHalfCell) - 1};
   }
 
  private:
-  double half_chord(double from_centre) const {
-    return std::sqrt(std::max(0.0, radius * radius - from_centre * from_centre));
+  static constexpr double kHalfCell = 0.5;
+
+  /// Without the function call that std::ceil is on old processors.
+  static std::int32_t ceil_of(double x) {
+    const auto whole = static_cast<std::int32_t>(x);
+    return whole + (x > whole ? 1 : 0);
   }
+  /// The greatest x over heights in [low, high]. The boundary is concave in y and greatest at y = dy.
+  double right_over(double low, double high) const {
+    if (dy_ < low) return right_at(std::max(low, -radius_));
+    if (dy_ > high) return right_at(std::min(high, dy_ + radius_));
+    return dx_ + radius_;
+  }
+  double right_at(double y) const {
+    if (y >= dy_ - drop_) return dx_ + half_chord(y - dy_);
+    if (y <= -drop_) return half_chord(y);
+    return (y + drop_) * slope_ + aside_;
+  }
+  double half_chord(double from_centre) const {
+    return std::sqrt(std::max(0.0, radius_ * radius_ - from_centre * from_centre));
+  }
+
+  double dx_;
+  double dy_;
+  double radius_;
+  double drop_ = 0;   ///< by so much the line begins and ends below the centres of the arcs
+  double slope_ = 0;  ///< of the line, in x for each y
+  double aside_ = 0;  ///< where the line is at y = -drop
 };
 
 }  // namespace
 
 CellRun swept_run(Cell displacement, double radius, std::int32_t row) {
-  // Mirror so that both components are positive.
-  const bool mirror_x = displacement.x < 0;
-  const std::int32_t mirrored_row = displacement.y < 0 ? -row : row;
-  const double dx = std::abs(displacement.x);
-  const double dy = std::abs(displacement.y);
-  const Capsule capsule{dx, dy, radius, norm({dx, dy})};
-
-  const double low = mirrored_row - 0.5;
-  const double high = mirrored_row + 0.5;
-  if (low >= dy + radius - kTouchDepthCells || high <= -radius + kTouchDepthCells) return {};
-  const double right = capsule.right_over(low, high);
-  // The capsule is its own image under a half turn about the segment's middle.
-  const double left = dx - capsule.right_over(dy - high, dy - low);
-  // A cell from c - 0.5 to c + 0.5 is overlapped when left < c + 0.5 and c - 0.5 < right.
-  const auto first = static_cast<std::int32_t>(std::floor(left + kTouchDepthCells - 0.5)) + 1;
-  const auto last = static_cast<std::int32_t>(std::ceil(right - kTouchDepthCells + 0.5)) - 1;
-  return mirror_x ? CellRun{-last, -first} : CellRun{first, last};
+  // Mirrored so that both components are positive.
+  const CellRun run = Capsule({std::abs(displacement.x), std::abs(displacement.y)}, radius)
+                          .run(displacement.y < 0 ? -row : row);
+  return displacement.x < 0 ? CellRun{-run.last, -run.first} : run;
 }
 
 SweptRuns::SweptRuns(double radius, std::int32_t reach, std::int32_t longest)
@@ -87,9 +96,8 @@ std::span<const CellRun> SweptRuns::of(Cell displacement) {
 }
 
 void SweptRuns::append(Cell displacement, std::vector<CellRun>& runs) const {
-  for (std::int32_t row = -reach_; row <= displacement.y + reach_; ++row) {
-    runs.push_back(swept_run(displacement, radius_, row));
-  }
+  const Capsule capsule(displacement, radius_);
+  for (std::int32_t row = -reach_; row <= displacement.y + reach_; ++row) runs.push_back(capsule.run(row));
 }
 
 LineOfSight::LineOfSight(const GridMap& map, double radius_cells)

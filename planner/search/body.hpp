@@ -29,7 +29,8 @@ class Body {
             (std::uint64_t{1} << neighbourhood(options.connectedness).size()) - 1)),
         steps_(line_of_sight, map.cell_count(), static_connectedness(options)),
         distances_(map, line_of_sight, steps_, static_connectedness(options)),
-        detour_share_(options.any_angle ? 1 / kMostOctile : 1) {}
+        connectedness_(options.connectedness),
+        static_connectedness_(static_connectedness(options)) {}
   Body(const Body&) = delete;  // its parts know where the others are
   Body& operator=(const Body&) = delete;
 
@@ -42,18 +43,20 @@ class Body {
   /// As of StaticDistances.
   void set_goal(Cell goal) { distances_.set_goal(goal); }
 
-  /// What the map's obstacles add to the robot's way from the cell to its goal, in cells. Straight distance
-  /// plus detour is never more than the shortest way by steps. REQUIRES: options.detours.
-  double detour_cells(Cell cell) { return detour_share_ * distances_.detour_cells(cell); }
+  /// What the map's obstacles add to the robot's path from the cell to its goal, in cells. Straight distance
+  /// plus detour is never more than the shortest path by steps. REQUIRES: options.detours.
+  double detour_cells(Cell cell) { return distances_.detour_cells(cell); }
+
+  /// A lower bound on the path by steps from the cell to the goal, in cells. `detour` is that of the cell.
+  double least_steps_cells(Cell cell, Cell goal, double detour) const {
+    return std::max(neighbourhood_distance(cell, goal, connectedness_),
+                    neighbourhood_distance(cell, goal, static_connectedness_) + detour);
+  }
 
   const LineOfSight line_of_sight;
 
  private:
   static constexpr int kOctile = 3;
-  /// Length of an octile way for each cell of a straight one, at most: 1 / cos(22.5 degrees). By as much
-  /// a detour by any angle may be shorter.
-  static constexpr double kMostOctile = 1.0823922002923940;
-
   /// Octile ways come nearer to those by any angle than Manhattan ones, and are never longer.
   static int static_connectedness(BodyOptions options) {
     return options.any_angle && options.detours ? std::max(options.connectedness, kOctile)
@@ -63,7 +66,8 @@ class Body {
   std::uint32_t own_steps_;
   StepTable steps_;  ///< of own_steps_, and more where octile distances ask for them
   StaticDistances distances_;
-  double detour_share_;
+  int connectedness_;
+  int static_connectedness_;  ///< of distances_
 };
 
 /// By radius.

@@ -32,6 +32,12 @@ namespace {
 /// nothing, wide enough that few buckets are empty.
 constexpr double kBucketCells = 0.03;
 
+/// What a robot that does not turn has ahead by any angle is estimated so many times as long as it is, but
+/// never longer than steps take at least: the guarantee for paths by steps stays, and fewer nodes are
+/// expanded. (Trials on the paper's instances: 1.05 expands 0.79 to 1.01 times as many nodes, on a map of 256
+/// x 256 cells a third, and loses none of the flowtime that pulling tight gains; 1.1 loses 0.2 to 0.3 %.)
+constexpr double kStretch = 1.05;
+
 /// Seconds. Sums of durations along a way fall short of the straight one by roundings, at most by so much.
 constexpr double kSoonerS = 1e-6;
 
@@ -155,10 +161,13 @@ const typename Sipp<Motion>::CellNodes& Sipp<Motion>::lay_out(Cell cell) {
 
 template <class Motion>
 double Sipp<Motion>::heuristic_s(Cell cell) {
-  const double line_s = seconds(line_cells(cell, agent_->goal));
+  const double line = line_cells(cell, agent_->goal);
   // The start is expanded first whatever it says, and is often the only one.
-  if (!options_.detours || cell == agent_->start) return line_s;
-  return line_s + body_->detour_cells(cell) / agent_->speed_cells_per_s;
+  if (!options_.detours || cell == agent_->start) return seconds(line);
+  const double detour = body_->detour_cells(cell);
+  if (!options_.any_angle) return seconds(line + detour);
+  return seconds(std::min((Motion::kTurns ? 1 : kStretch) * (line + detour),
+                          body_->least_steps_cells(cell, agent_->goal, detour)));
 }
 
 template <class Motion>

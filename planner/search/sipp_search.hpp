@@ -22,9 +22,9 @@ struct SippOptions {
   /// an arrival that is at most so many times as late as the earliest one by steps alone.
   double weight = 1;
   MotionRules rules{};  ///< for TurningSearch alone
-  /// Add to the heuristic what the map's obstacles add to a robot's way by steps, were it alone: no way by
-  /// steps takes less, but some any-angle way may, and may be missed where it alone is in time for a latest
-  /// arrival. Off: the plain bound, as on an empty map.
+  /// Add to the heuristic what the map's obstacles add to a robot's path by steps, were it alone, and stretch
+  /// it at any angle: no path by steps takes less, but some any-angle path may, and may be missed where it
+  /// alone is in time for a latest arrival. Off: the plain distance, as on an empty map.
   bool detours = true;
   /// At any angle: pull the way that was found tight. Bends are left out or moved to a cell beside them where
   /// that is safe; nobody is later at any stop.

