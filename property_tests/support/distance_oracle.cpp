@@ -8,7 +8,7 @@
 namespace sipplab {
 namespace {
 
-/// Enough to shrink any span of plan time below its rounding.
+/// Enough to shrink any span of plan time below its rounding, where both end.
 constexpr int kTernarySteps = 120;
 constexpr int kBisectionSteps = 100;
 /// Seconds after an endless rest has begun at which every move is under its spell.
@@ -44,8 +44,9 @@ double least_together(const Leg& a, const Leg& b, double rounding_s) {
 /// Where a convex function is least in [low, high].
 template <class Function>
 double least_at(double low, double high, double enough, const Function& function) {
-  for (int step = 0; step < kTernarySteps && low < high; ++step) {
+  for (int step = 0; step < kTernarySteps; ++step) {
     const double third = (high - low) / 3;
+    if (low + third == low || high - third == high) break;
     const double left = function(low + third);
     const double right = function(high - third);
     if (std::min(left, right) < enough) return left < right ? low + third : high - third;
@@ -59,6 +60,7 @@ template <class Function>
 double crossing(double outside, double inside, double reach, const Function& function) {
   for (int step = 0; step < kBisectionSteps; ++step) {
     const double middle = (outside + inside) / 2;
+    if (middle == outside || middle == inside) break;
     (function(middle) < reach ? inside : outside) = middle;
   }
   return (outside + inside) / 2;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "property_tests/support/distance_oracle.hpp"
 
@@ -25,6 +26,15 @@ void add_unsafe(const BisectedSpan& span, Contacts contacts, double extra_s,
   const double end_s = span.end_s + extra_s;
   unsafe.push_back({allowed && span.contact_begin ? begin_s + kSlotS : begin_s - kSlotS,
                     allowed && span.contact_end ? end_s - kSlotS : end_s + kSlotS});
+}
+
+/// Whether the boxes around a way and around the disk's are within reach. If not, the two need no bisection.
+bool may_meet(Vec2 from, Vec2 to, const MovingDisk& disk, double reach) {
+  const auto gap = [](double a, double b, double c, double d) {
+    return std::max(std::min(a, b) - std::max(c, d), std::min(c, d) - std::max(a, b));
+  };
+  return gap(from.x, to.x, disk.way.from.x, disk.way.to.x) < reach &&
+         gap(from.y, to.y, disk.way.from.y, disk.way.to.y) < reach;
 }
 
 /// What the unsafe spans leave of [0, infinity).
@@ -97,7 +107,8 @@ class Search {
         robot_(robot),
         forbidden_(forbidden),
         contacts_(contacts),
-        steps_(mediant_neighbourhood(robot.connectedness)) {
+        steps_(mediant_neighbourhood(robot.connectedness)),
+        departures_(map.cell_count() * steps_.size()) {
     // Without turning one heading stands for all; else each step's, and that of the start.
     if (robot.turning) {
       for (const Cell step : steps_) headings_deg_.push_back(direction_deg(step));
@@ -108,6 +119,7 @@ class Search {
       if (!exactly_legal(map, robot.radius, cell) || is_forbidden(cell, cell)) continue;
       std::vector<OpenInterval> unsafe;
       for (const MovingDisk& disk : disks) {
+        if (!may_meet(centre(cell), centre(cell), disk, reach(disk))) continue;
         add_unsafe(bisect_collision(centre(cell), disk, reach(disk)), contacts_, robot.extra_time_s, unsafe);
       }
       for (const Interval& interval : safe_between(unsafe)) {
@@ -162,19 +174,15 @@ class Search {
     const std::size_t heading = robot_.turning ? step : 0;
     const double ready_s = from.arrival_s + turn_s(headings_deg_[from.heading], headings_deg_[heading]) +
                            robot_.wait_before_move_s;
-    if (!exactly_legal(map_, robot_.radius, to) || !exactly_clear(map_, robot_.radius, from.cell, to)) return;
-    if (is_forbidden(from.cell, to)) return;
-    const Move move(Displacement(centre(from.cell), centre(to)), robot_.speed);
-    std::vector<OpenInterval> unsafe;
-    for (const MovingDisk& disk : disks_)
-      add_unsafe(bisect_departures(move, disk, reach(disk) + robot_.extra_reach_cells), contacts_,
-                 robot_.extra_time_s, unsafe);
-    const std::vector<Interval> departures = safe_between(unsafe);
+    auto& departures = departures_[map_.index(from.cell) * steps_.size() + step];
+    if (!departures) departures = safe_departures(from.cell, to);
+    if (departures->empty()) return;
+    const Move move = move_of(from.cell, to);
     for (Label& target : labels_) {
       if (target.cell != to || target.heading != heading || target.settled) continue;
       const double first_s = std::max(ready_s, target.interval.begin_s - move.duration);
       const double last_s = std::min(from.interval.end_s, target.interval.end_s - move.duration);
-      for (const Interval& departure : departures) {
+      for (const Interval& departure : *departures) {
         const double departure_s = std::max(first_s, departure.begin_s);
         if (departure_s > std::min(last_s, departure.end_s)) continue;
         target.arrival_s = std::min(target.arrival_s, departure_s + move.duration);
@@ -183,12 +191,28 @@ class Search {
     }
   }
 
+  Move move_of(Cell from, Cell to) const { return {Displacement(centre(from), centre(to)), robot_.speed}; }
+
+  /// Times at which the robot may set out; none where the map or a start does not let it through.
+  std::vector<Interval> safe_departures(Cell from, Cell to) const {
+    if (!exactly_legal(map_, robot_.radius, to) || !exactly_clear(map_, robot_.radius, from, to)) return {};
+    if (is_forbidden(from, to)) return {};
+    std::vector<OpenInterval> unsafe;
+    for (const MovingDisk& disk : disks_) {
+      const double apart = reach(disk) + robot_.extra_reach_cells;
+      if (!may_meet(centre(from), centre(to), disk, apart)) continue;
+      add_unsafe(bisect_departures(move_of(from, to), disk, apart), contacts_, robot_.extra_time_s, unsafe);
+    }
+    return safe_between(unsafe);
+  }
+
   const GridMap& map_;
   const std::vector<MovingDisk>& disks_;
   const LoneRobot& robot_;
   const std::vector<Forbidden>& forbidden_;
   Contacts contacts_;
   std::vector<Cell> steps_;
+  std::vector<std::optional<std::vector<Interval>>> departures_;  ///< safe ones by cell and step, once asked for
   std::vector<double> headings_deg_;
   std::vector<Label> labels_;
 };
