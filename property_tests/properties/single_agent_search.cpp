@@ -380,7 +380,7 @@ int main() {
   });
 
   passed &= property("ways are pulled tight: clear of everything, and never later", [] {
-    constexpr int kWorlds = 20;
+    constexpr int kWorlds = 5;
     int gains = 0;
     for (int i = 0; i < kWorlds; ++i) {
       const World world = *any_world(5);
@@ -392,7 +392,7 @@ int main() {
   });
 
   passed &= property("every stop is left as early as is safe", [] {
-    constexpr int kWorlds = 20;
+    constexpr int kWorlds = 5;
     int waits = 0;
     for (int i = 0; i < kWorlds; ++i) {
       const World world = *any_world(5);

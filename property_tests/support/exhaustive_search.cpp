@@ -212,7 +212,7 @@ class Search {
   const std::vector<Forbidden>& forbidden_;
   Contacts contacts_;
   std::vector<Cell> steps_;
-  std::vector<std::optional<std::vector<Interval>>> departures_;  ///< safe ones by cell and step, once asked for
+  std::vector<std::optional<std::vector<Interval>>> departures_;  ///< safe, by cell and step
   std::vector<double> headings_deg_;
   std::vector<Label> labels_;
 };
