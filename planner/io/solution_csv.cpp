@@ -90,6 +90,35 @@ Expected<TimedMotion, std::string> motion_of(const std::vector<std::string>& fie
   return motion;
 }
 
+/// A wait from 0 to 0, a robot's first line, says where it begins and is no motion.
+bool states_place(const TimedMotion& motion) {
+  return motion.is_wait() && !motion.is_turn() && motion.begin_s == 0 && motion.end_s == 0;
+}
+
+/// Whether its motions do not say where the robot begins.
+bool needs_place(const Trajectory& trajectory) {
+  if (trajectory.motions.empty()) return true;
+  const TimedMotion& first = trajectory.motions.front();
+  return first.from != trajectory.start || states_place(first);
+}
+
+void append_line(std::string& out, std::size_t agent, std::string_view id, const TimedMotion& motion,
+                 bool with_turns) {
+  out += std::to_string(agent) + ",";
+  append_field(out, id);
+  out += ',';
+  append_real(out, motion.begin_s);
+  out += ',';
+  append_real(out, motion.end_s);
+  for (const std::int32_t number : {motion.from.x, motion.from.y, motion.to.x, motion.to.y}) {
+    out += ',';
+    out += std::to_string(number);
+  }
+  if (with_turns) out += ',';
+  if (with_turns && motion.turn_to_deg) append_real(out, *motion.turn_to_deg);
+  out += '\n';
+}
+
 }  // namespace
 
 std::string solution_to_csv(const Instance& instance, const SolutionDocument& document) {
@@ -98,21 +127,10 @@ std::string solution_to_csv(const Instance& instance, const SolutionDocument& do
   out += '\n';
   const std::vector<Trajectory>& trajectories = document.solution.trajectories;
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    for (const TimedMotion& motion : trajectories[i].motions) {
-      out += std::to_string(i) + ",";
-      append_field(out, instance.agents[i].id);
-      out += ',';
-      append_real(out, motion.begin_s);
-      out += ',';
-      append_real(out, motion.end_s);
-      for (const std::int32_t number : {motion.from.x, motion.from.y, motion.to.x, motion.to.y}) {
-        out += ',';
-        out += std::to_string(number);
-      }
-      if (with_turns) out += ',';
-      if (with_turns && motion.turn_to_deg) append_real(out, *motion.turn_to_deg);
-      out += '\n';
-    }
+    const std::string& id = instance.agents[i].id;
+    const Cell start = trajectories[i].start;
+    if (needs_place(trajectories[i])) append_line(out, i, id, {0, 0, start, start}, with_turns);
+    for (const TimedMotion& motion : trajectories[i].motions) append_line(out, i, id, motion, with_turns);
   }
   return out;
 }
@@ -129,6 +147,7 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
   const std::size_t columns = header == kHeader ? kColumns : kColumnsWithTurns;
   SolutionDocument document;
   for (const Agent& agent : instance.agents) document.solution.trajectories.push_back({agent.start, {}});
+  std::vector<bool> is_begun(instance.agents.size(), false);
 
   int line = 1;
   std::string_view rest = text;
@@ -159,8 +178,10 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
       return error(record.line, "turn_to in a motion that changes place", "turns in place alone");
     }
     Trajectory& trajectory = document.solution.trajectories[index];
-    if (trajectory.motions.empty()) trajectory.start = motion->from;
-    trajectory.motions.push_back(*motion);
+    const bool is_first = !is_begun[index];
+    is_begun[index] = true;
+    if (is_first) trajectory.start = motion->from;
+    if (!is_first || !states_place(*motion)) trajectory.motions.push_back(*motion);
   }
   return document;
 }

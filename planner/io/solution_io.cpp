@@ -58,7 +58,7 @@ TrajectoryCollector::TrajectoryCollector(const Instance& instance)
 }
 
 std::string TrajectoryCollector::add(const std::optional<std::string>& id, std::size_t position,
-                                     Trajectory trajectory) {
+                                     Trajectory trajectory, const std::optional<Cell>& stated_start) {
   AgentIndex agent = position;
   if (id && !ids_repeat_) {
     const auto found = agent_of_id_.find(*id);
@@ -72,7 +72,9 @@ std::string TrajectoryCollector::add(const std::optional<std::string>& id, std::
   }
   if (taken_[agent]) return "a second trajectory of robot " + in_quotes(instance_.agents[agent].id);
   taken_[agent] = true;
-  if (trajectory.motions.empty()) trajectory.start = instance_.agents[agent].start;
+  const Cell begin =
+      trajectory.motions.empty() ? instance_.agents[agent].start : trajectory.motions.front().from;
+  trajectory.start = stated_start.value_or(begin);
   trajectories_[agent] = std::move(trajectory);
   return {};
 }

@@ -54,8 +54,8 @@ std::optional<SolutionFormat> parse_solution_format(std::string_view text);
 /// REQUIRES: the solution is empty or has one trajectory per agent of the instance.
 std::string solution_to_json(const Instance& instance, const SolutionDocument& document);
 std::string solution_to_xml(const Instance& instance, const SolutionDocument& document);
-/// One line a motion: agent,id,t0,t1,x0,y0,x1,y1, and turn_to where there are turns. Holds
-/// the trajectories alone.
+/// One line a motion: agent,id,t0,t1,x0,y0,x1,y1, and turn_to where there are turns. Holds the trajectories
+/// alone. The first line of a robot that never moves is a wait from 0 to 0, which says where it is.
 std::string solution_to_csv(const Instance& instance, const SolutionDocument& document);
 std::string write_solution(SolutionFormat format, const Instance& instance, const SolutionDocument& document);
 
@@ -65,7 +65,7 @@ std::string write_solution(SolutionFormat format, const Instance& instance, cons
 /// "robot" before it, arrows between, and lines that begin with # are passed over. The published planner's
 /// logs are read as well: their durations, rounded to 8 digits, are summed up from time 0, and a straight
 /// section that takes its length over the robot's speed to within that rounding gets exactly that duration. A
-/// robot without motions stays at its start. Whether the solution is right is for validate() to say; here
+/// robot without motions stays where the file says that it begins, else at its start. Whether the solution is right is for validate() to say; here
 /// only its form is checked.
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
                                        const Instance& instance);

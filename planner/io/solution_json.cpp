@@ -58,9 +58,10 @@ void append_motion(std::string& out, const TimedMotion& motion) {
 }
 
 std::string trajectory_text(const Agent& agent, const Trajectory& trajectory) {
-  std::string out = fmt::format(R"({{"id": {}, "radius": {}, "speed": {}, "motions": [)",
-                                is_canonical_integer(agent.id) ? agent.id : text_of(agent.id),
-                                real(agent.radius_cells), real(agent.speed_cells_per_s));
+  std::string out = fmt::format(
+      R"({{"id": {}, "radius": {}, "speed": {}, "start": [{}, {}], "goal": [{}, {}], "motions": [)",
+      is_canonical_integer(agent.id) ? agent.id : text_of(agent.id), real(agent.radius_cells),
+      real(agent.speed_cells_per_s), trajectory.start.x, trajectory.start.y, agent.goal.x, agent.goal.y);
   for (std::size_t i = 0; i < trajectory.motions.size(); ++i) {
     if (i > 0) out += ", ";
     append_motion(out, trajectory.motions[i]);

@@ -49,7 +49,9 @@ class JsonReader {
     return number(object, key, where);
   }
   std::int32_t coordinate(const json& object, const char* key, const std::string& where) {
-    const json* value = find(object, key);
+    return coordinate(find(object, key), where + key);
+  }
+  std::int32_t coordinate(const json* value, const std::string& where) {
     constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
     if (value && value->is_number_integer()) {
       // Above 63 bits an unsigned number would come back negative.
@@ -57,8 +59,19 @@ class JsonReader {
       const auto result = value->get<std::int64_t>();
       if (!huge && result >= -kMost && result <= kMost) return static_cast<std::int32_t>(result);
     }
-    fail(where + key, "an integer within 32 bits");
+    fail(where, "an integer within 32 bits");
     return 0;
+  }
+  /// [x, y]; none where there is no such key.
+  std::optional<Cell> place(const json& object, const char* key, const std::string& where) {
+    const json* value = find(object, key);
+    if (!value) return std::nullopt;
+    if (!value->is_array() || value->size() != 2) {
+      fail(where + key, "a cell, [x, y]");
+      return std::nullopt;
+    }
+    const std::string here = where + key;
+    return Cell{coordinate(&(*value)[0], here + "[0]"), coordinate(&(*value)[1], here + "[1]")};
   }
   std::uint64_t count(const json& object, const char* key) {
     const json* value = find(object, key);
@@ -122,7 +135,6 @@ Trajectory read_trajectory(JsonReader& reader, const json& value, const std::str
     }
     if (reader.error()) return trajectory;
   }
-  if (!trajectory.motions.empty()) trajectory.start = trajectory.motions.front().from;
   return trajectory;
 }
 
@@ -147,7 +159,9 @@ void read_trajectories(JsonReader& reader, const json& document, const Instance&
   for (const json& value : *values) {
     const std::string where = "trajectories[" + std::to_string(position) + "].";
     const std::optional<std::string> id = read_id(reader, value, where);
-    const std::string problem = collector.add(id, position++, read_trajectory(reader, value, where));
+    const std::optional<Cell> start = reader.place(value, "start", where);
+    reader.place(value, "goal", where);  // whether it is reached is the validator's question
+    const std::string problem = collector.add(id, position++, read_trajectory(reader, value, where), start);
     if (!problem.empty()) reader.fail_with(where, problem, "one trajectory for each robot of the instance");
     if (reader.error()) return;
   }

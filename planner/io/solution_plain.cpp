@@ -107,10 +107,11 @@ Input<SolutionDocument> parse_solution_plain(std::string_view text, const std::s
     const Expected<Trajectory, std::string> trajectory = trajectory_of(line);
     if (!trajectory) return error(number, in_quotes(trajectory.error()), kLineWords);
     const std::string name(robot_of(*robot));
-    std::string problem = collector.add(name, position++, *trajectory);
+    const Cell start = trajectory->start;
+    std::string problem = collector.add(name, position++, *trajectory, start);
     const auto place = problem.empty() ? std::nullopt : parse_integer(name);
     if (place && *place >= 0)
-      problem = collector.add(std::nullopt, static_cast<std::size_t>(*place), *trajectory);
+      problem = collector.add(std::nullopt, static_cast<std::size_t>(*place), *trajectory, start);
     if (!problem.empty()) return error(number, problem, "one line for each robot of the instance");
   }
   if (const auto missing = collector.missing()) {

@@ -53,8 +53,8 @@ void add_order(xml_node log, const std::vector<AgentIndex>& order) {
 void add_trajectory(xml_node log, const Agent& agent, const Trajectory& trajectory, bool with_headings) {
   xml_node node = log.append_child("agent");
   add_attribute(node, "id", agent.id);
-  node.append_attribute("start.x") = agent.start.x;
-  node.append_attribute("start.y") = agent.start.y;
+  node.append_attribute("start.x") = trajectory.start.x;
+  node.append_attribute("start.y") = trajectory.start.y;
   if (with_headings) add_attribute(node, "start.heading", agent.start_heading_deg);
   node.append_attribute("goal.x") = agent.goal.x;
   node.append_attribute("goal.y") = agent.goal.y;
@@ -150,9 +150,11 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
     if (position < instance.agents.size()) options.robot = &instance.agents[position];
     const pugi::xml_attribute id = element.attribute("id");
     Trajectory trajectory = read_sections(reader, path, options);
+    std::optional<Cell> start;
+    if (element.attribute("start.x")) start = read_cell(reader, element, "start.x", "start.y");
     if (reader.failed()) return;
     const std::string problem = collector.add(id ? std::optional<std::string>(id.value()) : std::nullopt,
-                                              position++, std::move(trajectory));
+                                              position++, std::move(trajectory), start);
     if (!problem.empty()) return reader.fail(element, problem, "one <agent> for each robot of the instance");
   }
   if (position == 0 && document.status != "solved") return;

@@ -26,10 +26,6 @@ double without_rounding(double stated, double exact, double rounding) {
   return std::abs(stated - exact) <= rounding ? exact : stated;
 }
 
-Cell read_cell(XmlReader& reader, xml_node section, const char* x, const char* y) {
-  return {reader.required_integer(section, x), reader.required_integer(section, y)};
-}
-
 /// The headings of the robot that makes the sections, one section after another.
 class HeadingReader {
  public:
@@ -84,6 +80,10 @@ double duration_s(const TimedMotion& motion, double stated_s, double turned_deg,
 }
 
 }  // namespace
+
+Cell read_cell(XmlReader& reader, xml_node node, const char* x, const char* y) {
+  return {reader.required_integer(node, x), reader.required_integer(node, y)};
+}
 
 Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions& options) {
   Trajectory trajectory;

@@ -25,6 +25,9 @@ struct SectionOptions {
   const Agent* robot = nullptr;
 };
 
+/// The cell in two attributes; a missing one is an error.
+Cell read_cell(XmlReader& reader, pugi::xml_node node, const char* x, const char* y);
+
 /// The trajectory that the <section> children of `node` tell of, from time 0. Their
 /// durations are summed up, unless they carry begin and end, exact times that only
 /// our own files have. Waits that take no time are dropped. Errors go to the

@@ -243,7 +243,8 @@ TEST(IoSolution, JsonIsTheDocumentedDocument) {
                       "ssi_kept"}));
   EXPECT_EQ(document["trajectories"][0]["id"], 0);
   EXPECT_EQ(document["trajectories"][2]["id"], "007");
-  EXPECT_EQ(document["trajectories"][2].dump(), R"({"id":"007","radius":0.4,"speed":2,"motions":[]})");
+  EXPECT_EQ(document["trajectories"][2].dump(),
+            R"({"id":"007","radius":0.4,"speed":2,"start":[4,3],"goal":[4,3],"motions":[]})");
   EXPECT_EQ(document["trajectories"][0]["motions"][0].dump(),
             R"({"t0":0,"t1":0.3333333333333333,"x0":0,"y0":0,"x1":0,"y1":0})");
 }
@@ -374,6 +375,35 @@ TEST(IoSolution, WrongSolutionsAreWrittenAndReadAsTheyAre) {
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->solution, document.solution);
   }
+}
+
+TEST(IoSolution, ARobotThatNeverMovesHasAPlaceInEveryFormat) {
+  Instance instance = awkward_instance();
+  SolutionDocument document;
+  // The last one stands beside its start, and the second one's first motion begins elsewhere.
+  document.solution.trajectories = {
+      {{0, 0}, {}}, {{0, 3}, {{0, 0, {0, 2}, {0, 2}}, {0, 1, {0, 2}, {7, 0}}}}, {{4, 2}, {}}};
+  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml, SolutionFormat::kCsv}) {
+    const Input<SolutionDocument> read =
+        parse_solution(write_solution(format, instance, document), "s", instance);
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(read->solution, document.solution);
+  }
+  const Input<SolutionDocument> plain =
+      parse_solution("0: (0,0,0)\n1: (0,3,0)\n2: (4,2,0)\n", "s", instance);
+  ASSERT_TRUE(plain) << plain.error().message();
+  EXPECT_EQ(plain->solution.trajectories[2].start, (Cell{4, 2}));
+}
+
+TEST(IoSolution, StatedPlacesAreCells) {
+  const Instance instance = awkward_instance();
+  const auto complaint = [&](const std::string& places) {
+    return error_of(R"({"trajectories": [{"id": "007", )" + places + R"(, "motions": []}]})", instance);
+  };
+  EXPECT_EQ(complaint(R"("goal": [4])"),
+            "s:1: trajectories[0].goal is missing or of the wrong kind, expected a cell, [x, y]");
+  EXPECT_EQ(complaint(R"("start": [4, 0.5])"),
+            "s:1: trajectories[0].start[1] is missing or of the wrong kind, expected an integer within 32 bits");
 }
 
 TEST(IoSolution, RobotsAreToldById) {
