@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "db/queries.hpp"
 #include "db/rows.hpp"
@@ -139,26 +141,112 @@ struct CellKey {
   std::string run;
   std::string machine;
   std::string program;
+  CaseInfo parameters;
+  std::set<std::int64_t> instances;
 };
 
-Result<std::map<std::int64_t, CellKey>> newest_cells(Database& database, const ComparisonSide& side) {
+Result<std::set<std::int64_t>> instances_of(Database& database, std::int64_t cell) {
+  auto select = Statement::prepare(database.connection(),
+                                   "SELECT DISTINCT instance_id FROM result WHERE cell_id = ?", kReadingRuns);
+  if (!select) return Unexpected{select.error()};
+  const auto ids = select->bind(cell).collect([](const Statement& row) { return row.integer(0); });
+  if (!ids) return Unexpected{ids.error()};
+  return std::set<std::int64_t>(ids->begin(), ids->end());
+}
+
+/// By case.
+using Cells = std::map<std::int64_t, CellKey>;
+
+Result<Cells> newest_cells(Database& database, const ComparisonSide& side) {
   auto select = Statement::prepare(
       database.connection(),
-      "SELECT cell.case_id, cell.id, run.uuid, machine.fingerprint, build.binary_hash FROM cell "
+      "SELECT cell.id, run.uuid, machine.fingerprint, build.binary_hash, case_.* FROM cell "
       "JOIN run ON run.id = cell.run_id JOIN machine ON machine.id = run.machine_id "
-      "JOIN build ON build.id = run.build_id WHERE cell.run_id = ?",
+      "JOIN build ON build.id = run.build_id JOIN case_ ON case_.id = cell.case_id WHERE cell.run_id = ?",
       kReadingRuns);
   if (!select) return Unexpected{select.error()};
-  std::map<std::int64_t, CellKey> cells;
+  constexpr int kCaseColumn = 4;
+  Cells cells;
   for (const std::int64_t run : side.run_ids) {
     select->bind(run);
     const auto done = select->for_each([&] {
-      cells[select->integer(0)] = {select->integer(1), select->text(2), select->text(3), select->text(4)};
+      cells[select->integer(kCaseColumn)] = {select->integer(0), select->text(1), select->text(2), select->text(3),
+                                             read_case(*select, kCaseColumn), {}};
     });
     if (!done) return Unexpected{done.error()};
     select->reset();
   }
   return cells;
+}
+
+bool differ_in_planner_alone(const CellKey& a, const CellKey& b) {
+  CaseInfo of_a = a.parameters;
+  of_a.planner = b.parameters.planner;
+  return of_a == b.parameters;
+}
+
+/// Rules that a plan has to keep, whoever makes it.
+bool share_instances_and_rules(const CellKey& a, const CellKey& b) {
+  if (a.parameters.robots != b.parameters.robots) return false;
+  for (const char* rule : {"turns", "wait_before_move_s", "inflate_distance_cells", "inflate_time_s"}) {
+    if (a.parameters.option(rule) != b.parameters.option(rule)) return false;
+  }
+  return std::any_of(a.instances.begin(), a.instances.end(),
+                     [&](std::int64_t instance) { return b.instances.contains(instance); });
+}
+
+using CellPairs = std::vector<std::pair<const CellKey*, const CellKey*>>;
+
+/// Takes those of both sides out that have just one partner there.
+template <class AreAlike>
+void pair_unique(std::vector<const CellKey*>& base, std::vector<const CellKey*>& head, const AreAlike& are_alike,
+                 CellPairs& pairs) {
+  const auto only = [](const std::vector<const CellKey*>& cells, const auto& is_partner) {
+    const auto found = std::find_if(cells.begin(), cells.end(), is_partner);
+    const bool is_only = found != cells.end() && std::none_of(found + 1, cells.end(), is_partner);
+    return is_only ? *found : nullptr;
+  };
+  CellPairs found;
+  for (const CellKey* cell : base) {
+    const CellKey* partner = only(head, [&](const CellKey* other) { return are_alike(*cell, *other); });
+    if (partner && only(base, [&](const CellKey* other) { return are_alike(*other, *partner); })) {
+      found.emplace_back(cell, partner);
+    }
+  }
+  for (const auto& [cell, partner] : found) {
+    std::erase(base, cell);
+    std::erase(head, partner);
+    pairs.emplace_back(cell, partner);
+  }
+}
+
+/// Which cell of the base is compared with which of the head; see paired_cells().
+Result<CellPairs> pairs_of(Database& database, Cells& base, Cells& head) {
+  CellPairs pairs;
+  std::vector<const CellKey*> base_alone;
+  std::vector<const CellKey*> head_alone;
+  for (auto& [key, cell] : base) {
+    const auto partner = head.find(key);
+    if (partner != head.end()) {
+      pairs.emplace_back(&cell, &partner->second);
+    } else {
+      base_alone.push_back(&cell);
+    }
+  }
+  for (auto& [key, cell] : head) {
+    if (!base.contains(key)) head_alone.push_back(&cell);
+  }
+  pair_unique(base_alone, head_alone, differ_in_planner_alone, pairs);
+  if (base_alone.empty() || head_alone.empty()) return pairs;
+  for (Cells* side : {&base, &head}) {
+    for (auto& [key, cell] : *side) {
+      auto instances = instances_of(database, cell.cell);
+      if (!instances) return Unexpected{instances.error()};
+      cell.instances = std::move(*instances);
+    }
+  }
+  pair_unique(base_alone, head_alone, share_instances_and_rules, pairs);
+  return pairs;
 }
 
 constexpr const char* kResultColumns =
@@ -189,9 +277,12 @@ Result<std::int64_t> result_count(Database& database, std::int64_t cell) {
 Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head, PairedCell& cell) {
   auto select = Statement::prepare(
       database.connection(),
-      fmt::format("SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
-                  "FROM result AS base JOIN result AS head ON head.cell_id = ?2 "
-                  "  AND head.instance_id = base.instance_id AND head.position = base.position "
+      // Positions may differ between folders; of equal files in one folder the first goes with the first.
+      fmt::format("WITH numbered AS (SELECT *, row_number() OVER (PARTITION BY cell_id, instance_id, repetition "
+                  "  ORDER BY position) AS occurrence FROM result WHERE cell_id IN (?1, ?2)) "
+                  "SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
+                  "FROM numbered AS base JOIN numbered AS head ON head.cell_id = ?2 "
+                  "  AND head.instance_id = base.instance_id AND head.occurrence = base.occurrence "
                   "  AND head.repetition = base.repetition "
                   "JOIN instance ON instance.id = base.instance_id "
                   "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
@@ -250,28 +341,22 @@ Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
 
 Result<std::vector<PairedCell>> paired_cells(Database& database, const ComparisonSide& base,
                                              const ComparisonSide& head) {
-  const auto base_cells = newest_cells(database, base);
+  auto base_cells = newest_cells(database, base);
   if (!base_cells) return Unexpected{base_cells.error()};
-  const auto head_cells = newest_cells(database, head);
+  auto head_cells = newest_cells(database, head);
   if (!head_cells) return Unexpected{head_cells.error()};
-  auto select = Statement::prepare(database.connection(), "SELECT * FROM case_ WHERE id = ?", kReadingRuns);
-  if (!select) return Unexpected{select.error()};
+  const auto pairs = pairs_of(database, *base_cells, *head_cells);
+  if (!pairs) return Unexpected{pairs.error()};
   std::vector<PairedCell> cells;
-  for (const auto& [case_key, base_cell] : *base_cells) {
-    const auto head_cell = head_cells->find(case_key);
-    if (head_cell == head_cells->end()) continue;
-    const auto row = select->bind(case_key).step();
-    if (!row) return Unexpected{row.error()};
+  for (const auto& [of_base, of_head] : *pairs) {
     PairedCell cell;
-    cell.parameters = read_case(*select, 0);
-    select->reset();
-    cell.base_run = base_cell.run;
-    cell.head_run = head_cell->second.run;
-    cell.same_machine = base_cell.machine == head_cell->second.machine;
-    cell.same_program = base_cell.program == head_cell->second.program && !base_cell.program.empty();
-    if (auto done = read_pairs(database, base_cell.cell, head_cell->second.cell, cell); !done) {
-      return Unexpected{done.error()};
-    }
+    cell.parameters = of_head->parameters;
+    if (of_base->parameters != of_head->parameters) cell.base_planner = of_base->parameters.planner;
+    cell.base_run = of_base->run;
+    cell.head_run = of_head->run;
+    cell.same_machine = of_base->machine == of_head->machine;
+    cell.same_program = of_base->program == of_head->program && !of_base->program.empty();
+    if (auto done = read_pairs(database, of_base->cell, of_head->cell, cell); !done) return Unexpected{done.error()};
     cells.push_back(std::move(cell));
   }
   std::stable_sort(cells.begin(), cells.end(), [](const PairedCell& a, const PairedCell& b) {

@@ -184,6 +184,9 @@ Judgement measured(std::vector<db::PairedCell> cells, std::vector<std::string> n
   for (std::size_t i = 0; i < all.size(); ++i) {
     Judged cell;
     cell.name = names[i];
+    if (!all[i]->base_planner.empty()) {
+      cell.name += fmt::format(", {} against {}", all[i]->parameters.planner, all[i]->base_planner);
+    }
     cell.instances = instances({all[i]});
     cell.base_par2_s = par2(*all[i], &db::PairedResult::base);
     cell.head_par2_s = par2(*all[i], &db::PairedResult::head);

@@ -17,13 +17,17 @@ class Comparisons : public test::DatabaseTest {
   /// A run of one case with `count` instances; returns its UUID.
   std::string record(const std::string& hash, std::int64_t ancestors, const std::string& branch,
                      std::int64_t robots, int count, bool dirty = false) {
+    return record(hash, ancestors, branch, {test::sample_case(robots)}, count, dirty);
+  }
+  std::string record(const std::string& hash, std::int64_t ancestors, const std::string& branch,
+                     const std::vector<CaseInfo>& cases, int count, bool dirty = false) {
     RunInfo info = test::sample_run();
     info.commit->hash = hash;
     info.commit->ancestor_count = ancestors;
     info.branch = branch;
     info.build.dirty = dirty;
     auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
-    test::record_case(recorder, test::sample_case(robots), count);
+    for (const CaseInfo& parameters : cases) test::record_case(recorder, parameters, count);
     must(recorder.finish(RunStatus::kFinished));
     return recorder.run_uuid();
   }
@@ -93,6 +97,7 @@ TEST_F(Comparisons, of_a_commit_the_newest_result_of_each_case_counts) {
   ASSERT_EQ(cells.size(), 2U);
   EXPECT_EQ(cells[0].parameters.robots, 64);
   EXPECT_EQ(cells[0].base_run, base);
+  EXPECT_EQ(cells[0].base_planner, "");
   EXPECT_EQ(cells[0].head_run, again);
   EXPECT_EQ(cells[0].results.size(), 2U);
   EXPECT_EQ(cells[0].base_only, 1U);
@@ -122,6 +127,46 @@ TEST_F(Comparisons, pairs_hold_what_was_recorded) {
       EXPECT_EQ(row.plan_hash, expected.plan_hash);
     }
   }
+}
+
+CaseInfo planned_by(std::string planner, double ssi_s, double weight = 1) {
+  CaseInfo parameters = test::sample_case(64, ssi_s);
+  parameters.planner = std::move(planner);
+  parameters.options["weight"] = weight;
+  return parameters;
+}
+
+TEST_F(Comparisons, planners_are_paired_where_nothing_else_differs) {
+  record(kOlder, 7, "main", {planned_by("sipplab", 3), planned_by("sipplab", 5)}, 3);
+  record(kNewer, 8, "work", {planned_by("cmd:other", 3), planned_by("cmd:other", 5)}, 3);
+  const std::vector<PairedCell> cells = pairs("main", "work");
+  ASSERT_EQ(cells.size(), 2U);
+  for (const PairedCell& cell : cells) {
+    EXPECT_EQ(cell.base_planner, "sipplab");
+    EXPECT_EQ(cell.parameters.planner, "cmd:other");
+    EXPECT_EQ(cell.results.size(), 3U);
+  }
+  EXPECT_EQ(cells[0].parameters.real("ssi_s"), 3);
+}
+
+TEST_F(Comparisons, settings_are_paired_by_instance_and_rules_where_there_is_one_pair_alone) {
+  record(kOlder, 7, "main", {planned_by("sipplab weight:1.05", 3, 1.05)}, 3);
+  CaseInfo elsewhere = planned_by("cmd:other", 5);
+  elsewhere.instance_set = "another folder with the same files";
+  record(kNewer, 8, "work", {elsewhere}, 2);
+  const std::vector<PairedCell> cells = pairs("main", "work");
+  ASSERT_EQ(cells.size(), 1U);
+  EXPECT_EQ(cells[0].base_planner, "sipplab weight:1.05");
+  EXPECT_EQ(cells[0].results.size(), 2U);
+  EXPECT_EQ(cells[0].base_only, 1U);
+
+  // Which of two? And a plan with turns keeps other rules.
+  record("bbbb" + std::string(36, '0'), 9, "two", {planned_by("cmd:other", 5), planned_by("cmd:other", 9)}, 3);
+  EXPECT_TRUE(pairs("main", "two").empty());
+  CaseInfo turning = planned_by("cmd:other turns:yes", 5);
+  turning.options["turns"] = std::int64_t{1};
+  record("cccc" + std::string(36, '0'), 10, "turns", {turning}, 3);
+  EXPECT_TRUE(pairs("main", "turns").empty());
 }
 
 TEST_F(Comparisons, sides_without_a_common_case_have_no_pairs) {
