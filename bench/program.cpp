@@ -15,6 +15,8 @@
 #include <csignal>
 #include <string_view>
 
+#include "bench/process_tree.hpp"
+
 namespace sipplab::bench {
 namespace {
 
@@ -43,6 +45,10 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 constexpr std::chrono::milliseconds kGiveUpInterval{100};
 /// Where the system gives no descriptor of a process to wait for.
 constexpr std::chrono::milliseconds kPollInterval{2};
+/// Bytes a second: what programs of some threads touch on machines of today. Memory is looked at when it could
+/// be at its limit by that, and no more often than this: a look takes a millisecond or two.
+constexpr double kFastestGrowth = 8.0 * (std::uint64_t{1} << 30);
+constexpr std::chrono::milliseconds kMemoryInterval{5};
 constexpr std::size_t kMostOutputBytes = std::size_t{64} << 20;
 
 /// Appends what can be read now; false at the end of the file.
@@ -61,21 +67,48 @@ bool has_ended(pid_t child) {
          info.si_pid == child;
 }
 
-/// Waits until the process ends, reading what it writes meanwhile, or until its time is up.
+/// Looks at the memory of a program in time.
+class MemoryWatch {
+ public:
+  MemoryWatch(pid_t program, std::uint64_t limit_bytes) : program_(program), limit_bytes_(limit_bytes) {}
+
+  /// The bytes beyond the limit that are held, or 0. Does nothing before time_left() is over.
+  std::uint64_t exceeded() {
+    if (limit_bytes_ == 0 || Clock::now() < next_) return 0;
+    const std::uint64_t held = resident_bytes(program_, limit_bytes_);
+    if (held > limit_bytes_) return held;
+    const std::chrono::duration<double> soonest(static_cast<double>(limit_bytes_ - held) / kFastestGrowth);
+    next_ = Clock::now() + std::max<Clock::duration>(std::chrono::duration_cast<Clock::duration>(soonest),
+                                                     kMemoryInterval);
+    return 0;
+  }
+  std::chrono::duration<double, std::milli> time_left() const {
+    return limit_bytes_ == 0 ? Clock::duration::max() : next_ - Clock::now();
+  }
+
+ private:
+  pid_t program_;
+  std::uint64_t limit_bytes_;
+  Clock::time_point next_;
+};
+
+/// Waits until the process ends, reading what it writes meanwhile, or until its time or memory is up.
 void watch(pid_t child, int output, const ProgramOptions& options, ProgramRun& run) {
   // The wrapper of glibc 2.36 has no C linkage.
   const int process = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
   const auto limit = std::chrono::duration<double>(options.limit_s);
   const Clock::time_point begin = Clock::now();
+  MemoryWatch memory(child, options.memory_limit_bytes);
   for (;;) {
     const auto left = limit - (Clock::now() - begin);
     run.timed_out = left <= left.zero();
     run.given_up = options.give_up != nullptr && options.give_up();
     if (run.timed_out || run.given_up || has_ended(child)) break;
+    if ((run.memory_seen_bytes = memory.exceeded()) > 0) break;
     const auto slice = std::min<std::chrono::duration<double, std::milli>>(
-        left, process < 0 ? kPollInterval : kGiveUpInterval);
+        {left, memory.time_left(), process < 0 ? kPollInterval : kGiveUpInterval});
     pollfd files[] = {{process, POLLIN, 0}, {output, POLLIN, 0}};
-    poll(files, 2, static_cast<int>(std::ceil(slice.count())));
+    poll(files, 2, std::max(0, static_cast<int>(std::ceil(slice.count()))));
     if (files[1].revents != 0 && !read_some(output, run.output)) output = -1;  // poll leaves out -1
   }
   if (process >= 0) close(process);
@@ -124,7 +157,7 @@ ProgramRun run_program(const std::vector<std::string>& command, const ProgramOpt
   if (failed == 0) {
     watch(child, ends[0], options, run);
     run.wall_time_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    if (run.timed_out || run.given_up) kill(child, SIGKILL);
+    if (run.timed_out || run.given_up || run.memory_seen_bytes > 0) kill(child, SIGKILL);
     if (options.own_group) kill(-child, SIGKILL);
     int status = 0;
     rusage usage{};

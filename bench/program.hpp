@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,17 @@ struct ProgramOptions {
   /// The program leads a process group of its own, all of which is killed when the program
   /// ends or its time is up. Asked while it runs: whether to give up on it.
   bool own_group = false;
-  bool (*give_up)() = nullptr;
+  std::function<bool()> give_up = {};
+  /// Bytes that it and all that it started may hold in memory together; killed beyond, as soon as it is
+  /// seen. 0: no limit. Looks through /proc, a program that grows faster than 8 GiB/s is seen late.
+  std::uint64_t memory_limit_bytes = 0;
 };
 
 struct ProgramRun {
   bool started = false;
   bool timed_out = false;
   bool given_up = false;
+  std::uint64_t memory_seen_bytes = 0;  ///< beyond the limit, where that is why it was killed; else 0
   int exit_code = -1;  ///< -1 after a signal
   int signal = 0;      ///< that ended it
   double wall_time_s = 0;

@@ -34,6 +34,7 @@ class Examination {
     check("foreign keys", &Examination::foreign_keys);
     check("results", &Examination::results);
     check("summaries", &Examination::summaries);
+    check("planners", &Examination::planners);
     check("unfinished runs", &Examination::unfinished_runs);
     check("empty runs", &Examination::empty_runs);
     return std::move(report_);
@@ -163,6 +164,21 @@ class Examination {
     return add_fixable(fmt::format("{} cells whose summary is missing or differs from their results", *stale),
                        "sipplab doctor --fix makes them anew from the results",
                        [this] { return rebuild_summaries(connection_); });
+  }
+
+  Result<Done> planners() {
+    const auto rows = texts(
+        "WITH command AS (SELECT DISTINCT case_.planner, substr(run.options, instr(run.options, ' planner='), "
+        "    instr(run.options, ' memory_limit=') - instr(run.options, ' planner=')) AS digest "
+        "  FROM run JOIN cell ON cell.run_id = run.id JOIN case_ ON case_.id = cell.case_id "
+        "  WHERE run.excluded_reason IS NULL AND run.options LIKE '% planner=%') "
+        "SELECT printf('%s stands for %d commands', planner, count(*)) FROM command "
+        "GROUP BY planner HAVING count(*) > 1");
+    if (!rows) return Unexpected{rows.error()};
+    for (const std::string& row : *rows) {
+      add(row, "exclude the runs of all but one (sipplab runs --exclude), or record them again with --planner-name");
+    }
+    return Done{};
   }
 
   Result<Done> unfinished_runs() {

@@ -23,6 +23,11 @@ struct ResumableRun {
   std::size_t finished_cases = 0;
 };
 
+/// UUID of the newest run that counts in which another command than that of `digest` planned as `planner`
+/// ("cmd:NAME", with or without options behind it); runs without a command are passed over.
+Result<std::optional<std::string>> find_other_command(Database& database, const std::string& planner,
+                                                      const std::string& digest);
+
 /// The newest run that `info` could continue: same suite, options, build and
 /// machine, not finished, not excluded, and not being written by a live process.
 Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info);

@@ -31,6 +31,8 @@
 namespace sipplab::cli {
 namespace {
 
+constexpr std::size_t kShortUuid = 8;
+
 /// The program that plans instead, where the user names one.
 std::optional<bench::CommandPlannerSpec> command_of(const BenchArguments& arguments) {
   if (!arguments.planner) return std::nullopt;
@@ -104,7 +106,6 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
 /// "sipplab show 1a2b3c4d": what to type next, for this program and history.
 std::string next_commands(const BenchArguments& arguments, const std::string& run) {
   const std::string database = arguments.database ? " --db " + *arguments.database : "";
-  constexpr std::size_t kShortUuid = 8;
   return fmt::format("next: {0} show{1} {2}, or {0} runs{1}", arguments.invocation.program, database,
                      run.substr(0, kShortUuid));
 }
@@ -150,6 +151,19 @@ int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, 
   return kSuccess;
 }
 
+/// An error where the name of the program that plans stands for another command in the history.
+std::optional<std::string> find_taken_name(db::Database& database, const BenchArguments& arguments) {
+  const auto command = command_of(arguments);
+  if (!command) return std::nullopt;
+  const std::string name = "cmd:" + command->name;
+  const auto other = db::find_other_command(database, name, bench::text_digest(command->command));
+  if (!other) return other.error().message;
+  if (!*other) return std::nullopt;
+  return fmt::format("{}: {} is another command in run {} (`sipplab show` tells which), expected "
+                     "--planner-name with a name for this one",
+                     database.path().string(), name, (*other)->substr(0, kShortUuid));
+}
+
 /// Opens the history, runs the cases that are to be run, and reports.
 int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags,
               bench::ExpandedSweep cases) {
@@ -157,6 +171,8 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   const db::RunInfo info = run_info(arguments, cases);
   auto database = db::Database::open(path);
   if (!database) return fail(database.error());
+
+  if (const auto line = find_taken_name(*database, arguments)) return fail(kBadUsage, "sipplab: " + *line);
 
   Resumption resumption;
   if (arguments.resume) {
@@ -283,7 +299,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                   "its name in the history instead of its program's")
       ->needs(planner)
       ->type_name("NAME");
-  command.add_option("--memory-limit", arguments.memory_limit_mib, "MiB for each process of that program")
+  command.add_option("--memory-limit", arguments.memory_limit_mib, "MiB that the program may hold in memory, with all it starts")
       ->needs(planner)
       ->check(CLI::Range(std::uint64_t{16}, std::uint64_t{1} << 30))
       ->capture_default_str();

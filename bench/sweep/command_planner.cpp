@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -30,6 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "cmd:";
+constexpr std::string_view kShell = "/bin/sh";
 /// Seconds beyond the limit, in which a planner that keeps it starts, reads and writes.
 constexpr double kGraceS = 1;
 /// MiB that the planner may write into one file, its log included.
@@ -98,10 +100,9 @@ double limit_of(const PlannerOptions& options) {
   return std::isinf(options.time_limit_s) ? kDefaultCommandLimitS : options.time_limit_s;
 }
 
-/// The command for /bin/sh, limits before it.
+/// The command for /bin/sh, limits on its files before it.
 std::string shell_line(const CommandPlannerSpec& spec, const fs::path& folder, const Instance& instance,
                        const PlannerOptions& options) {
-  constexpr std::uint64_t kKibPerMib = 1024;
   constexpr std::uint64_t kBlocksPerMib = 2048;  // of 512 bytes
   const std::string command =
       with_placeholders(spec.command, [&](std::string_view name) -> std::optional<std::string> {
@@ -113,43 +114,105 @@ std::string shell_line(const CommandPlannerSpec& spec, const fs::path& folder, c
         }
         return std::nullopt;
       });
-  return fmt::format("ulimit -c 0 && ulimit -f {} && ulimit -v {} || exit 126\n{}",
-                     kFileLimitMib * kBlocksPerMib, spec.memory_limit_mib * kKibPerMib, command);
+  return fmt::format("ulimit -c 0 && ulimit -f {} || exit 126\n{}", kFileLimitMib * kBlocksPerMib, command);
 }
 
-/// Whether a word means itself to the shell and may name a file by its path.
+/// Whether a word means itself to the shell.
+bool is_plain_word(std::string_view word) {
+  return std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("/._-+@%,:").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
+/// And may name a file by its path.
 bool is_plain_path(std::string_view word) {
-  return word.find_first_of("/.") != std::string_view::npos &&
-         std::all_of(word.begin(), word.end(), [](unsigned char c) {
-           return std::isalnum(c) != 0 ||
-                  std::string_view("/._-+@%,:").find(static_cast<char>(c)) != std::string_view::npos;
-         });
+  return word.find_first_of("/.") != std::string_view::npos && is_plain_word(word);
+}
+
+/// Programs that only start another one, with their options that take a word, and the words before it.
+struct Starter {
+  std::string_view name;
+  std::string_view options;
+  std::size_t words;
+};
+constexpr Starter kStarters[] = {
+    {"env", " -u -C ", 0},     {"nice", " -n ", 0},      {"ionice", " -c -n ", 0}, {"timeout", " -s -k ", 1},
+    {"time", " -f -o ", 0},    {"nohup", "", 0},         {"setsid", "", 0},        {"stdbuf", " -i -o -e ", 0},
+    {"taskset", "", 1},        {"chrt", "", 1},          {"exec", " -a ", 0},      {"numactl", " -N -m ", 0}};
+/// What runs a script; versions are digits behind the name.
+constexpr std::string_view kInterpreters = " sh bash dash ksh zsh python pypy perl ruby node lua julia Rscript java php ";
+/// Before the program, up to && or a semicolon.
+constexpr std::string_view kSettings = " cd export ulimit umask set ";
+
+bool is_in(std::string_view words, std::string_view word) {
+  return words.find(" " + std::string(word) + " ") != std::string_view::npos;
+}
+
+std::string base_name(const std::string& word) { return fs::path(word).filename().string(); }
+
+/// The words from the program on, without what only starts it: assignments, `env`, `nice`, `cd x &&`.
+std::vector<std::string> from_program(const std::string& command) {
+  std::istringstream text(command);
+  std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
+  const auto drop = [&words](std::size_t count) {
+    words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(std::min(count, words.size())));
+  };
+  while (words.size() > 1) {
+    const std::string first = base_name(words[0]);
+    const auto starter = std::find_if(std::begin(kStarters), std::end(kStarters),
+                                      [&](const Starter& known) { return known.name == first; });
+    if (is_in(kSettings, first)) {
+      const auto end = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+        return word == "&&" || word.back() == ';';
+      });
+      if (end == words.end()) return words;
+      words.erase(words.begin(), end + 1);
+    } else if (starter != std::end(kStarters)) {
+      drop(1);
+      while (!words.empty() && words[0].front() == '-') drop(is_in(starter->options, words[0]) ? 2 : 1);
+      drop(starter->words);
+    } else if (words[0].find('=') < words[0].find('/')) {
+      drop(1);
+    } else {
+      break;
+    }
+  }
+  return words;
 }
 
 /// The program's file name; of a script that an interpreter is to run, the script's.
 std::string name_of(const std::string& command) {
-  std::istringstream words(command);
-  std::string program;
-  std::string script;
-  words >> program >> script;
-  std::error_code ignored;
-  const bool is_script = is_plain_path(script) && fs::is_regular_file(script, ignored);
-  return fs::path(is_script ? script : program).filename().string();
+  const std::vector<std::string> words = from_program(command);
+  if (words.empty()) return "";
+  const std::string program = base_name(words[0]);
+  if (!is_in(kInterpreters, program.substr(0, program.find_first_of("0123456789")))) return program;
+  std::optional<std::string> script;
+  for (std::size_t i = 1; i < words.size() && words[i].find('{') == std::string::npos; ++i) {
+    if (words[i].front() == '-' || !is_plain_word(words[i])) continue;
+    std::error_code ignored;
+    if (fs::is_regular_file(words[i], ignored)) return base_name(words[i]);
+    if (!script) script = words[i];
+  }
+  return script ? base_name(*script) : program;
 }
 
-/// The command with absolute paths for words that name files from here, such as ./planner or script.py:
-/// it runs in a folder of its own.
+/// The command with absolute paths for words that name files from here, such as ./planner or script.py, and for
+/// the folder of a `cd`: it runs in a folder of its own.
 std::string with_absolute_paths(const std::string& command) {
   std::string absolute;
   std::string_view rest = command;
+  std::string_view before;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of(" \t\n"), rest.size());
     const std::string_view word = rest.substr(0, end);
     std::error_code ignored;
     const fs::path path(word);
     const bool is_file = is_plain_path(word) && path.is_relative() && fs::is_regular_file(path, ignored);
+    const bool is_folder = before == "cd" && path.is_relative() && fs::is_directory(path, ignored);
+    before = word;
     absolute +=
-        is_file ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string()) : std::string(word);
+        is_file || is_folder ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string()) : std::string(word);
     if (end < rest.size()) absolute += rest[end];
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -178,31 +241,44 @@ std::string write_files(const fs::path& folder, const Instance& instance, const 
   return "";
 }
 
-/// {out}, or the one new file where the planner has its own idea of a name.
-std::optional<fs::path> solution_file(const fs::path& folder) {
+/// {out}, or the new files where the planner has its own idea of a name.
+std::vector<fs::path> solution_files(const fs::path& folder) {
   std::error_code ignored;
   const fs::path asked = folder / "solution";
-  if (fs::is_regular_file(asked, ignored)) return asked;
-  std::optional<fs::path> found;
+  if (fs::is_regular_file(asked, ignored)) return {asked};
+  std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     const bool ours = name == kLog || std::any_of(std::begin(kFiles), std::end(kFiles),
                                                   [&](const Placeholder& file) { return file.file == name; });
     if (ours || !entry.is_regular_file(ignored)) continue;
-    if (found) return std::nullopt;  // which of them?
-    found = entry.path();
+    found.push_back(entry.path());
   }
+  std::sort(found.begin(), found.end());
   return found;
 }
 
+/// What the shell or a sanitizer's runtime adds below a program's own words: "Aborted",
+/// "/bin/sh: line 2: 71 Aborted ./planner", "==71==ABORTING".
+bool is_epitaph(std::string_view line, int signal) {
+  if (line.substr(0, 2) == "==" && line.find("==ABORTING") != std::string_view::npos) return true;
+  const std::string_view name = signal > 0 ? strsignal(signal) : "";
+  if (name.empty()) return false;
+  const bool is_of_shell = line.substr(0, kShell.size()) == kShell || line.substr(0, name.size()) == name;
+  return is_of_shell && line.find(name) != std::string_view::npos;
+}
+
 /// The last line that the program wrote, for people.
-std::string last_words(const fs::path& log) {
+std::string last_words(const fs::path& log, int signal) {
   const auto text = read_file(log.string());
-  if (!text) return "";
-  const std::string_view rest = trimmed(*text);
-  const std::size_t line = rest.rfind('\n') == std::string_view::npos ? 0 : rest.rfind('\n') + 1;
-  const std::string_view words = rest.substr(line).substr(0, kMostWords);
-  return words.empty() ? "" : ": " + in_quotes(words);
+  std::string_view rest = text ? trimmed(*text) : std::string_view();
+  while (!rest.empty()) {
+    const std::size_t line = rest.rfind('\n') == std::string_view::npos ? 0 : rest.rfind('\n') + 1;
+    const std::string_view words = trimmed(rest.substr(line));
+    if (!is_epitaph(words, signal)) return ": " + in_quotes(words.substr(0, kMostWords));
+    rest = trimmed(rest.substr(0, line));
+  }
+  return "";
 }
 
 /// That ended the program, as far as the shell tells; 0 for none.
@@ -218,6 +294,15 @@ std::string ending(const ProgramRun& run) {
   return fmt::format("ended with exit code {}", run.exit_code);
 }
 
+/// Nothing, or LaCAM's words for nothing: a program that found no plan says no untruth.
+bool gives_up(std::string_view text) {
+  LineScanner lines(text);
+  std::optional<std::string_view> line;
+  while ((line = lines.next()) && *line != "solved=0") {
+  }
+  return line || trimmed(text).empty();
+}
+
 /// The row for a solution that was found; `path` as its messages name it.
 void judge(const Instance& instance, const MotionRules& rules, const fs::path& path, double rounding,
            db::ResultRow& row) {
@@ -228,6 +313,10 @@ void judge(const Instance& instance, const MotionRules& rules, const fs::path& p
   };
   const Input<std::string> text = read_file(path.string());
   if (!text) return kReject(row, text.error().message());
+  if (gives_up(*text)) {
+    row.message = path.filename().string() + (trimmed(*text).empty() ? " is empty" : " says solved=0");
+    return;
+  }
   const Input<SolutionDocument> document = parse_solution(*text, path.filename().string(), instance);
   if (!document) return kReject(row, document.error().message());
   row.tries = document->tries;
@@ -264,9 +353,12 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
                       " is given no robots, expected {task}, {instance} or {scen} in it; there are " +
                       placeholder_words()};
   }
-  const std::string program = spec.command.substr(0, spec.command.find_first_of(" \t"));
+  const std::vector<std::string> words = from_program(spec.command);
+  const std::string program = words.empty() ? "" : words[0];
   std::error_code ignored;
-  if (program.find('/') != std::string::npos && is_plain_path(program) && !fs::exists(program, ignored)) {
+  const bool is_from_here = spec.command.find("cd ") == std::string::npos;
+  if (is_from_here && program.find('/') != std::string::npos && is_plain_path(program) &&
+      !fs::exists(program, ignored)) {
     return Unexpected{program + ": no such file, expected a program"};
   }
   spec.name = name.empty() ? name_of(spec.command) : name;
@@ -283,32 +375,51 @@ Expected<CommandPlanner, std::string> CommandPlanner::make(CommandPlannerSpec sp
 Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instance,
                                                          const PlannerOptions& options) const {
   constexpr double kNanosecondsPerSecond = 1e9;
+  constexpr std::uint64_t kBytesPerMib = std::uint64_t{1} << 20;
   const fs::path& folder = folder_.path();
   const fs::path log = folder / kLog;
   db::ResultRow row;
   if (std::string error = write_files(folder, instance, options); !error.empty()) {
     return Unexpected{std::move(error)};
   }
-  const ProgramRun run = run_program({"/bin/sh", "-c", shell_line(spec_, folder, instance, options)},
+  const ProgramRun run = run_program({std::string(kShell), "-c", shell_line(spec_, folder, instance, options)},
                                      {.log = log,
                                       .limit_s = limit_of(options) + kGraceS,
                                       .folder = folder,
                                       .all_to_log = true,
                                       .own_group = true,
-                                      .give_up = [] { return interrupted_by() != 0; }});
+                                      .give_up = [] { return interrupted_by() != 0; },
+                                      .memory_limit_bytes = spec_.memory_limit_mib * kBytesPerMib});
   row.planning_time_ns = std::llround(run.wall_time_s * kNanosecondsPerSecond);
   if (run.peak_memory_bytes > 0) row.peak_memory_bytes = run.peak_memory_bytes;
-  if (!run.started) return Unexpected{std::string("/bin/sh cannot be started")};
+  if (!run.started) return Unexpected{std::string(kShell) + " cannot be started"};
   if (run.timed_out) {
     row.status = db::ResultStatus::kLimit;
     row.limit = "time";
     row.message = fmt::format("killed after {} s", format_real(limit_of(options) + kGraceS));
-  } else if (signal_of(run) != 0) {
-    row.message = ending(run) + last_words(log);
-  } else if (const auto solution = solution_file(folder)) {
-    judge(instance, options.rules, *solution, spec_.rounding, row);
+    return row;
+  }
+  if (run.memory_seen_bytes > 0) {
+    row.status = db::ResultStatus::kLimit;
+    row.limit = "memory";
+    row.message = fmt::format("killed with {} MiB in memory", run.memory_seen_bytes / kBytesPerMib);
+    row.peak_memory_bytes = std::max(row.peak_memory_bytes.value_or(0),
+                                     static_cast<std::int64_t>(run.memory_seen_bytes));
+    return row;
+  }
+  const std::string words = last_words(log, signal_of(run));
+  const std::vector<fs::path> files = solution_files(folder);
+  if (signal_of(run) != 0) {
+    row.message = ending(run) + words;
+  } else if (files.empty()) {
+    row.message = "left no solution, " + ending(run) + words;
+  } else if (files.size() > 1) {
+    row.message = fmt::format("left {} new files, {} and {}{}, expected one, or {{out}}", files.size(),
+                              files[0].filename().string(), files[1].filename().string(),
+                              files.size() > 2 ? ", ..." : "");
   } else {
-    row.message = "left no solution, " + ending(run) + last_words(log);
+    judge(instance, options.rules, files.front(), spec_.rounding, row);
+    if (row.status == db::ResultStatus::kFailed && !row.message.empty()) row.message += ", " + ending(run) + words;
   }
   return row;
 }

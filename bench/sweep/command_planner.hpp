@@ -14,7 +14,7 @@
 
 namespace sipplab::bench {
 
-/// Address space of each process of another planner, MiB: four times what the published
+/// Resident memory of another planner with all that it starts, MiB: four times what the published
 /// planner takes for the largest instances of its archive, and half of a small machine's memory.
 inline constexpr std::uint64_t kDefaultMemoryLimitMib = 4096;
 /// Wall-clock seconds where a case sets no limit: that of [AY18], section 5.
@@ -50,7 +50,7 @@ class CommandPlanner {
 
   /// Runs the command on an instance and judges what it left: `solved` is a plan that the
   /// validator accepts, `invalid` one that it rejects or that cannot be read, `limit` a program
-  /// that was ended for its time, `failed` everything else. Wall-clock time is that of the
+  /// that was ended for its time or memory, `failed` everything else, an empty solution among it. Wall-clock time is that of the
   /// program from its start to its end. Tries and expansions are what the solution states.
   /// Plans are not checked for start-safe intervals. Errors: one line, where nothing was run at all.
   Expected<db::ResultRow, std::string> run(const Instance& instance, const PlannerOptions& options) const;

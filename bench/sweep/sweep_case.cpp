@@ -33,8 +33,10 @@ std::string place_name(const std::string& map_spec, const std::string& environme
 }
 
 std::string planner_label(const SweepCase& sweep_case) {
-  return sweep_case.command.empty() ? label_of(sweep_case.options)
-                                    : std::string(kProgramPrefix) + sweep_case.command;
+  const std::string label = label_of(sweep_case.options);
+  if (sweep_case.command.empty()) return label;
+  // Another program is told the options, too: with others it is another planner.
+  return std::string(kProgramPrefix) + sweep_case.command + label.substr(std::min(label.find(' '), label.size()));
 }
 
 bool is_another_program(std::string_view planner) {

@@ -160,7 +160,71 @@ planner floods_memory <<'E2'
 head -c 4000000000 /dev/zero | tail
 E2
 sweeps floods_memory --memory-limit 64
-equal "$(row floods_memory "status, message LIKE 'left no solution, ended with exit code 1%'")" 'failed|1' 'memory'
+equal "$(row floods_memory "status, limit_struck, message LIKE 'killed with % MiB in memory', peak_memory_bytes > 67108864")" \
+  'limit|memory|1|1' 'memory'
+
+# Memory is what is held: 600 idle threads reserve gigabytes and hold little.
+if cat >threads.c <<'E2' && cc -O1 -pthread threads.c -o many_threads 2>/dev/null; then
+#include <pthread.h>
+#include <unistd.h>
+static void* idle(void* none) { sleep(1); return none; }
+int main(void) {
+  pthread_t threads[600];
+  for (int i = 0; i < 600; ++i) if (pthread_create(&threads[i], 0, idle, 0)) return 3;
+  for (int i = 0; i < 600; ++i) pthread_join(threads[i], 0);
+  return 0;
+}
+E2
+  planner threads <<'E2'
+"$(dirname "$0")/many_threads" && exec "$sipplab" plan --instance "$1" --config "$4" -o "$3"
+E2
+  sweeps threads
+  equal "$(row threads 'status, message')" 'solved|' 'threads that hold nothing'
+fi
+
+# Its own last words, not the shell's.
+planner aborts <<'E2'
+echo "what(): the map is too large"
+kill -ABRT $$
+E2
+sweeps aborts
+equal "$(row aborts message)" "ended by signal 6 (Aborted): 'what(): the map is too large'" 'last words'
+
+# Giving up is no lie, and two files are two.
+planner gives_up <<'E2'
+: >"$3"
+echo "no plan"
+E2
+sweeps gives_up
+equal "$(row gives_up 'status, message')" "failed|solution is empty, ended with exit code 0: 'no plan'" 'an empty solution'
+planner says_unsolved <<'E2'
+printf 'agents=4\nsolved=0\nsolution=\n' >"$3"
+E2
+sweeps says_unsolved
+equal "$(row says_unsolved 'status, message')" 'failed|solution says solved=0, ended with exit code 0' 'solved=0'
+planner two_files <<'E2'
+for name in plan.txt other.txt; do "$sipplab" plan --instance "$1" -o "$(dirname "$3")/$name"; done
+E2
+sweeps two_files
+equal "$(row two_files 'status, message')" 'failed|left 2 new files, other.txt and plan.txt, expected one, or {out}' 'two files'
+
+# Other options make another planner, of other programs as well.
+expect 0 bench --suite smoke --map empty:9x9 --robots 2 --count 1 --ssi 3 --reschedule none --order shortest --weight 1,1.5 \
+  --db planners.db --planner "cmd:$work/honest {instance} {scen} {out} {config}" --planner-name weighted "${unlimited[@]}"
+equal "$(sqlite3 planners.db "SELECT group_concat(planner || '=' || weight, '; ') FROM
+    (SELECT DISTINCT planner, weight FROM v_cases WHERE planner LIKE 'cmd:weighted%' AND any_angle ORDER BY weight)")" \
+  'cmd:weighted=1.0; cmd:weighted weight:1.5=1.5' 'options of another planner'
+
+# One name is one command.
+cp honest other_honest
+refused "cmd:honest is another command in run [0-9a-f]{8} .*expected --planner-name" bench --suite smoke --map empty:9x9 \
+  --robots 4 --count 2 --ssi 3 --db planners.db --planner "cmd:$work/other_honest {instance} {scen} {out} {config}" --planner-name honest
+
+# Two planners on the same instances are compared.
+run_of() { sqlite3 planners.db "SELECT run FROM v_results WHERE planner = '$1' LIMIT 1"; }
+expect 0 compare "$(run_of sipplab)" "$(run_of cmd:honest)" --db planners.db
+says 'cmd:honest against sipplab'
+says 'all 8 plannings'
 
 planner floods_output <<'E2'
 exec cat /dev/zero

@@ -167,8 +167,10 @@ TEST(PlannerLabel, SaysWhatDiffersFromTheDefaults) {
   EXPECT_EQ(planner_label(sweep_case), "sipplab weight:1.05 fallback:complete");
   EXPECT_EQ(case_name(sweep_case, false), plain + "/weight:1.05/fallback:complete");
   sweep_case.command = "other";
+  EXPECT_EQ(planner_label(sweep_case), "cmd:other weight:1.05 fallback:complete") << "it is told them, too";
+  EXPECT_EQ(case_name(sweep_case, true), plain + "/planner:cmd:other/weight:1.05/fallback:complete/seed:1");
+  sweep_case.options = {};
   EXPECT_EQ(planner_label(sweep_case), "cmd:other");
-  EXPECT_EQ(case_name(sweep_case, true), plain + "/planner:cmd:other/seed:1");
 }
 
 TEST(CaseRow, KeepsEachOptionInItsColumn) {

@@ -44,6 +44,17 @@ TEST_F(Doctor, a_sound_history_has_no_finding) {
   EXPECT_GE(report.checks.size(), 8U);
 }
 
+TEST_F(Doctor, finds_a_name_that_stands_for_two_commands) {
+  record_version(file, {1, 1, 8});
+  record_version(file, {2, 1, 8});
+  change("UPDATE case_ SET planner = 'cmd:p'");
+  change("UPDATE run SET options = options || ' planner=0a memory_limit=1'");
+  EXPECT_TRUE(look().sound());
+  change("UPDATE run SET options = replace(options, '0a', '0b') WHERE id = 1");
+  EXPECT_EQ(finding().check, "planners");
+  EXPECT_EQ(finding().what, "cmd:p stands for 2 commands");
+}
+
 TEST_F(Doctor, leaves_no_file_behind_and_heeds_none) {
   record_version(file, {1, 1, 8});
   const std::filesystem::path here = std::filesystem::current_path();
