@@ -125,6 +125,13 @@ Result<StoredFinding> record_finding(Database& database, const RunOrigin& origin
   return find_finding(database, id);
 }
 
+Result<StoredFinding> record_minimal(Database& database, std::int64_t id, const Finding& finding) {
+  const auto stored = find_finding(database, id);
+  if (!stored) return stored;
+  if (auto done = keep_smaller(database.connection(), *stored, finding); !done) return Unexpected{done.error()};
+  return find_finding(database, id);
+}
+
 Result<StoredFinding> record_replay(Database& database, const RunOrigin& origin, std::int64_t id, bool breaks,
                                     const std::string& now_utc) {
   auto& connection = database.connection();

@@ -3,14 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <deque>
 #include <map>
+#include <mutex>
+#include <sstream>
+#include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "bench/campaigns/counts.hpp"
 #include "bench/campaigns/engine_log.hpp"
 #include "bench/campaigns/target_program.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"
@@ -33,6 +40,14 @@ constexpr int kMemoryLimitMb = 1024;
 constexpr double kGraceS = 120;
 /// Without a budget of time a target is given a day.
 constexpr double kLongestS = 86'400;
+/// Part of a budget of time that is left for making findings smaller.
+constexpr double kReduceShare = 0.1;
+/// Seconds that one reduction gets at most: thousands of judgements at a few milliseconds, or some that hang; and
+/// what it needs to come to anything.
+constexpr double kReduceLimitS = 120;
+constexpr double kLeastReduceS = 1;
+/// Characters of an input that a log shows.
+constexpr std::size_t kMostShown = 2000;
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::error_code error;
@@ -44,6 +59,13 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::sort(files.begin(), files.end());
   return files;
 }
+
+/// A finding that is stored, and what is needed to work on.
+struct OpenFinding {
+  db::StoredFinding stored;
+  std::string report;
+  const TargetProgram* program = nullptr;
+};
 
 class TargetRun {
  public:
@@ -65,8 +87,8 @@ class TargetRun {
 
   db::Result<bool> is_known() { return db::is_fuzzed_clean(database_, run_.target, run_.target_hash); }
 
-  /// Runs the engine for its share of the budget and writes what it did; gives what it found.
-  db::Result<std::vector<db::StoredFinding>> run(std::optional<double> seconds) {
+  /// Runs the engine for its share of the budget, and judges what it found.
+  void run(std::optional<double> seconds) {
     run_.budget_executions = options_.executions;
     run_.budget_s = seconds;
     prepare();
@@ -76,9 +98,22 @@ class TargetRun {
     const auto inputs = take_artifacts();
     const bool was_stopped = run_.timeouts > 0;  // by an input that is not slow: the engine ends there
     if (inputs.empty() && !ended_well_ && !was_stopped) run_.status = "broken";
+    judge(inputs);
+  }
+
+  /// Writes what run() did, and what it found as it was found. A run that the user ended without findings is none.
+  db::Result<std::vector<OpenFinding>> record() {
+    if (interrupted_by() != 0 && found_.empty()) return std::vector<OpenFinding>();
     const auto id = db::record_fuzz_run(database_, origin_, run_);
     if (!id) return Unexpected{id.error()};
-    return record_findings(inputs, *id);
+    std::vector<OpenFinding> open;
+    for (const auto& [signature, found] : found_) {
+      const db::Finding finding = finding_of(run_.target, found.first, found.second);
+      const auto stored = db::record_finding(database_, origin_, finding, *id, db::utc_now());
+      if (!stored) return Unexpected{stored.error()};
+      open.push_back({*stored, found.first.report, &program_});
+    }
+    return open;
   }
 
   const db::FuzzRun& row() const { return run_; }
@@ -130,7 +165,9 @@ class TargetRun {
     const ProgramRun engine =
         run_program(command(), {.environment = {std::string(fuzz::kCountsVariable) + "=" + counts().string()},
                                 .log = log(),
-                                .limit_s = run_.budget_s ? *run_.budget_s + kGraceS : kLongestS});
+                                .limit_s = run_.budget_s ? *run_.budget_s + kGraceS : kLongestS,
+                                .own_group = true,
+                                .give_up = [] { return interrupted_by() != 0; }});
     run_.wall_time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
     run_.cpu_time_ns = static_cast<std::int64_t>(engine.cpu_time_s * 1e9);
     // In fork mode the engine's log does not tell of its processes.
@@ -201,28 +238,17 @@ class TargetRun {
     return inputs;
   }
 
-  db::Result<std::vector<db::StoredFinding>> record_findings(
-      const std::vector<std::pair<std::string, std::string>>& inputs, std::int64_t run_id) {
-    // The shortest input of each signature.
-    std::map<std::string, std::pair<InputVerdict, std::string>> distinct;
+  void judge(const std::vector<std::pair<std::string, std::string>>& inputs) {
     for (const auto& [kind, input] : inputs) {
       InputVerdict verdict = program_.judge(input);
       if (verdict.verdict != TargetVerdict::kBreaks) {
         verdict = {TargetVerdict::kBreaks, "flaky", kind, "",
                    "the engine reports a " + kind + ", and alone the input holds"};
       }
-      const auto known = distinct.find(verdict.signature());
-      if (known != distinct.end() && known->second.second.size() <= input.size()) continue;
-      distinct[verdict.signature()] = {verdict, input};
+      const auto known = found_.find(verdict.signature());
+      if (known != found_.end() && known->second.second.size() <= input.size()) continue;
+      found_[verdict.signature()] = {verdict, input};
     }
-    std::vector<db::StoredFinding> findings;
-    for (const auto& [signature, found] : distinct) {
-      const db::Finding finding = finding_of(program_, run_.target, found.first, found.second);
-      const auto stored = db::record_finding(database_, origin_, finding, run_id, db::utc_now());
-      if (!stored) return Unexpected{stored.error()};
-      findings.push_back(*stored);
-    }
-    return findings;
   }
 
   db::Database& database_;
@@ -231,22 +257,89 @@ class TargetRun {
   fs::path folder_;
   TargetProgram program_;
   db::FuzzRun run_;
+  /// The shortest input of each signature.
+  std::map<std::string, std::pair<InputVerdict, std::string>> found_;
   bool ended_well_ = false;
 };
 
-/// The minimal input and its picture, for whoever comes to look.
-void write_finding(const CampaignOptions& options, const db::StoredFinding& stored,
-                   const std::function<void(const std::string&)>& tell) {
+/// What a log has to hold when the machine is gone: what broke, and where.
+void tell_sighting(const OpenFinding& open, const Teller& tell) {
+  const db::StoredFinding& stored = open.stored;
+  tell(fmt::format("finding {} ({}), {}: {}", stored.id, stored.state, stored.finding.target,
+                   stored.finding.message));
+  std::istringstream report(open.report);
+  for (std::string line; std::getline(report, line);) tell("  | " + line);
+}
+
+/// The input as the format of printf(1), in one line.
+std::string printf_words(std::string_view input) {
+  std::string words;
+  for (const char c : input) {
+    if (c == '\n') {
+      words += "\\n";
+    } else if (c == '\\' || c == '%') {
+      words += std::string(2, c);
+    } else if (c < ' ' || c > '~' || c == '\'') {
+      words += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    } else {
+      words += c;
+    }
+  }
+  return words;
+}
+
+/// The minimal input and its picture, for whoever comes to look, and how it is tried again.
+void write_finding(const CampaignOptions& options, const OpenFinding& open, const Teller& tell) {
+  const db::StoredFinding& stored = open.stored;
   const fs::path folder = options.work / "findings";
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   const fs::path file = folder / fmt::format("{}.{}", stored.id, stored.finding.robots ? "case" : "input");
-  tell(fmt::format("finding {} ({}), {}: {}", stored.id, stored.state, stored.finding.target,
-                   stored.finding.message));
-  if (!write_file(file.string(), stored.finding.minimal)) tell(fmt::format("  {}", file.string()));
+  const bool is_written = !write_file(file.string(), stored.finding.minimal);
+  tell(fmt::format("finding {}: {} bytes, of {}{}", stored.id, stored.finding.minimal.size(),
+                   stored.finding.input.size(), is_written ? ", in " + file.string() : std::string()));
+  const std::string words = printf_words(stored.finding.minimal);
+  tell(words.size() > kMostShown
+           ? fmt::format("  again: scripts/fuzz --reproduce {}", stored.id)
+           : fmt::format("  again: printf '{}' >input && {} --judge input", words, open.program->replayer().string()));
   const auto picture = draw_finding(stored.finding);
   const fs::path drawn = folder / fmt::format("{}.svg", stored.id);
   if (picture && !write_file(drawn.string(), *picture)) tell(fmt::format("  {}", drawn.string()));
+}
+
+/// Says what a target did; whether it did not run as it should.
+bool tell_run(const TargetRun& run, const Teller& tell) {
+  const db::FuzzRun& row = run.row();
+  const double wall_time_s = static_cast<double>(row.wall_time_ns) / 1e9;
+  tell(fmt::format("{}: {}, {} executions in {:.1f} s, {:.0f} a second, {} edges, {} inputs kept", row.target,
+                   row.status, row.executions, wall_time_s,
+                   wall_time_s > 0 ? static_cast<double>(row.executions) / wall_time_s : 0, row.edges,
+                   row.corpus_files));
+  const bool is_broken = row.status == "broken" && interrupted_by() == 0;
+  if (is_broken) tell(fmt::format("  it did not run as it should; what it said: {}", run.log().string()));
+  return is_broken;
+}
+
+/// Makes findings smaller, each for its share of what is left of the time, and writes them.
+db::Result<db::Done> finish(db::Database& database, const CampaignOptions& options, std::vector<OpenFinding>& open,
+                            const Clock::time_point& deadline, const Teller& tell) {
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    db::StoredFinding& stored = open[i].stored;
+    const double left_s = std::chrono::duration<double>(deadline - Clock::now()).count();
+    const double share_s = std::min(left_s / static_cast<double>(open.size() - i), kReduceLimitS);
+    const bool is_reduced = stored.finding.minimal != stored.finding.input;  // when it was found before
+    const bool is_worth_it = !is_reduced && stored.finding.kind != "flaky" && interrupted_by() == 0;
+    if (is_worth_it && share_s >= kLeastReduceS) {
+      const db::Finding smaller = reduced(*open[i].program, stored.finding, share_s, tell);
+      auto kept = db::record_minimal(database, stored.id, smaller);
+      if (!kept) return Unexpected{kept.error()};
+      stored = std::move(*kept);
+    } else if (is_worth_it) {
+      tell(fmt::format("finding {}: no time is left to make it smaller", stored.id));
+    }
+    write_finding(options, open[i], tell);
+  }
+  return db::Done{};
 }
 
 }  // namespace
@@ -266,41 +359,55 @@ std::vector<std::string> targets_of(const CampaignOptions& options) {
 }
 
 db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOrigin& origin,
-                                        const CampaignOptions& options,
-                                        const std::function<void(const std::string&)>& tell) {
+                                        const CampaignOptions& options, const Teller& tell) {
   CampaignResult result;
   result.campaign = db::new_uuid();
-  std::vector<TargetRun> runs;
+  std::deque<TargetRun> runs;  // findings point to their programs
   for (const std::string& target : options.targets.empty() ? targets_of(options) : options.targets) {
-    TargetRun run(database, origin, options, result.campaign, target);
-    if (options.skip_known) {
-      const auto known = run.is_known();
-      if (!known) return Unexpected{known.error()};
-      if (*known) {
-        result.skipped.push_back(target);
-        continue;
+    runs.emplace_back(database, origin, options, result.campaign, target);
+    if (!options.skip_known) continue;
+    const auto known = runs.back().is_known();
+    if (!known) return Unexpected{known.error()};
+    if (!*known) continue;
+    result.skipped.push_back(target);
+    runs.pop_back();
+  }
+  // Processes of one target in turn, or one process of several targets at a time.
+  const std::size_t most = options.mode == "nightly" ? 1 : static_cast<std::size_t>(options.workers);
+  const std::size_t at_a_time = std::max<std::size_t>(1, std::min(most, runs.size()));
+  const std::size_t turns = (runs.size() + at_a_time - 1) / at_a_time;
+  std::optional<double> share;
+  if (options.seconds) share = *options.seconds * (1 - kReduceShare) / static_cast<double>(std::max<std::size_t>(1, turns));
+  const Clock::time_point deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                         std::chrono::duration<double>(options.seconds.value_or(kLongestS)));
+
+  std::vector<OpenFinding> open;
+  std::optional<db::Error> error;
+  std::mutex one_at_a_time;  // for the history, and lines for people
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = 0; interrupted_by() == 0 && (i = next++) < runs.size();) {
+      runs[i].run(share);
+      const std::lock_guard lock(one_at_a_time);
+      if (error) return;
+      const auto found = runs[i].record();
+      if (!found) {
+        error = found.error();
+        return;
       }
+      result.broken = tell_run(runs[i], tell) || result.broken;
+      for (const OpenFinding& finding : *found) tell_sighting(finding, tell);
+      open.insert(open.end(), found->begin(), found->end());
     }
-    runs.push_back(std::move(run));
-  }
-  for (TargetRun& run : runs) {
-    std::optional<double> share;
-    if (options.seconds) share = *options.seconds / static_cast<double>(runs.size());
-    const auto findings = run.run(share);
-    if (!findings) return Unexpected{findings.error()};
-    const db::FuzzRun& row = run.row();
-    const double wall_time_s = static_cast<double>(row.wall_time_ns) / 1e9;
-    tell(fmt::format("{}: {}, {} executions in {:.1f} s, {:.0f} a second, {} edges, {} inputs kept",
-                     row.target, row.status, row.executions, wall_time_s,
-                     wall_time_s > 0 ? static_cast<double>(row.executions) / wall_time_s : 0, row.edges,
-                     row.corpus_files));
-    if (row.status == "broken") {
-      result.broken = true;
-      tell(fmt::format("  it did not run as it should; what it said: {}", run.log().string()));
-    }
-    for (const db::StoredFinding& stored : *findings) write_finding(options, stored, tell);
-    result.findings.insert(result.findings.end(), findings->begin(), findings->end());
-  }
+  };
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < at_a_time; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  if (error) return Unexpected{*error};
+  if (auto done = finish(database, options, open, deadline, tell); !done) return Unexpected{done.error()};
+  for (const OpenFinding& finding : open) result.findings.push_back(finding.stored);
   return result;
 }
 

@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/campaigns/target_program.hpp"
 #include "db/database.hpp"
 #include "db/findings.hpp"
 #include "db/fuzz_runs.hpp"
@@ -24,7 +24,7 @@ struct CampaignOptions {
   std::optional<std::int64_t> executions;  ///< per target
   std::optional<double> seconds;           ///< all targets together
   std::uint64_t seed = 1;
-  int workers = 1;          ///< processes in fork mode (nightly)
+  int workers = 1;          ///< processes at a time: of one target in fork mode (nightly), else one of each
   bool skip_known = false;  ///< leave out programs that were fuzzed for a time without findings
 };
 
@@ -38,10 +38,11 @@ struct CampaignResult {
 /// The targets below sources/corpus for which there is a program.
 std::vector<std::string> targets_of(const CampaignOptions& options);
 
-/// Runs all targets, one after another; rows are written after each. `tell` gets one line at
-/// a time, for a person.
+/// Runs all targets; rows are written after each, findings among them. Afterwards findings are made smaller, within
+/// the same budget of seconds. An interrupt ends engines and reductions; what was found by then is written. `tell`
+/// gets one line at a time, for a person, never two at once.
 db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOrigin& origin,
                                         const CampaignOptions& options,
-                                        const std::function<void(const std::string&)>& tell);
+                                        const Teller& tell);
 
 }  // namespace sipplab::bench

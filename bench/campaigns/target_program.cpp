@@ -1,13 +1,16 @@
 #include "bench/campaigns/target_program.hpp"
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "bench/campaigns/replay.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/program.hpp"
 #include "planner/io/case_codec.hpp"
 #include "planner/io/svg.hpp"
@@ -20,9 +23,17 @@ namespace fs = std::filesystem;
 
 /// Seconds. Judging waits ten seconds for an input that hangs; names of functions take some.
 constexpr double kJudgeLimitS = 60;
-/// Thousands of judgements at a few milliseconds, or some that hang.
-constexpr double kReduceLimitS = 300;
+/// Between lines on how far a reduction has come.
+constexpr std::chrono::seconds kTellInterval{10};
 constexpr unsigned kDrawLimitS = 10;
+
+void set_minimal(db::Finding& finding, const std::string& minimal) {
+  finding.minimal = minimal;
+  const auto plan_case = decode_case(minimal);
+  if (!plan_case) return;
+  finding.robots = static_cast<std::int64_t>(plan_case->instance.agents.size());
+  finding.cells = static_cast<std::int64_t>(plan_case->instance.map.cell_count());
+}
 
 /// Runs `draw` in a child; what it returns comes back through a file.
 template <class Draw>
@@ -85,22 +96,30 @@ InputVerdict TargetProgram::judge(const std::string& input) const {
   for (std::string* value : {&verdict.kind, &verdict.claim, &verdict.frames, &verdict.message}) {
     std::getline(lines, *value);
   }
+  for (std::string line; std::getline(lines, line);) verdict.report += line + '\n';
   return verdict;
 }
 
-std::string TargetProgram::reduce(const std::string& input) const {
+std::string TargetProgram::reduce(const std::string& input, double limit_s, const Teller& tell) const {
   const fs::path file = scratch_ / "input";
   const fs::path smaller = scratch_ / "smaller";
   std::error_code ignored;
   fs::remove(smaller, ignored);
   if (write_file(file.string(), input)) return input;
-  const ProgramRun run = run_program({replayer().string(), "--reduce", file.string(), smaller.string()},
-                                     {.log = scratch_ / "reduce.log", .limit_s = kReduceLimitS});
-  return run.started && run.exit_code == 0 ? bytes_or_none(smaller) : input;
+  auto told = std::chrono::steady_clock::now();
+  const auto give_up = [&] {
+    if (std::chrono::steady_clock::now() - told >= kTellInterval) {
+      told = std::chrono::steady_clock::now();
+      tell(fmt::format("  {}: {} bytes, of {}", target_, bytes_or_none(smaller).size(), input.size()));
+    }
+    return interrupted_by() != 0;
+  };
+  run_program({replayer().string(), "--reduce", file.string(), smaller.string()},
+              {.log = scratch_ / "reduce.log", .limit_s = limit_s, .own_group = true, .give_up = give_up});
+  return fs::is_regular_file(smaller, ignored) ? bytes_or_none(smaller) : input;
 }
 
-db::Finding finding_of(const TargetProgram& program, const std::string& target, const InputVerdict& verdict,
-                       const std::string& input) {
+db::Finding finding_of(const std::string& target, const InputVerdict& verdict, const std::string& input) {
   db::Finding finding;
   finding.target = target;
   finding.kind = verdict.kind;
@@ -108,14 +127,16 @@ db::Finding finding_of(const TargetProgram& program, const std::string& target, 
   finding.frames = verdict.frames;
   finding.message = verdict.message;
   finding.input = input;
-  finding.minimal = program.reduce(input);
-  // Reducing goes by addresses; what counts is what the smallest one is judged to be.
-  if (program.judge(finding.minimal).signature() != finding.signature()) finding.minimal = input;
-  if (const auto plan_case = decode_case(finding.minimal)) {
-    finding.robots = static_cast<std::int64_t>(plan_case->instance.agents.size());
-    finding.cells = static_cast<std::int64_t>(plan_case->instance.map.cell_count());
-  }
+  set_minimal(finding, input);
   return finding;
+}
+
+db::Finding reduced(const TargetProgram& program, const db::Finding& finding, double limit_s, const Teller& tell) {
+  const std::string minimal = program.reduce(finding.minimal, limit_s, tell);
+  db::Finding smaller = finding;
+  // Reducing goes by addresses; what counts is what the smallest one is judged to be.
+  if (program.judge(minimal).signature() == finding.signature()) set_minimal(smaller, minimal);
+  return smaller;
 }
 
 std::optional<std::string> draw_finding(const db::Finding& finding) {

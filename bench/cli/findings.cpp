@@ -1,7 +1,9 @@
 // sipplab findings: what fuzzing found, and whether it still breaks.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
 #include "db/identity.hpp"
+#include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
 
 namespace sipplab::cli {
@@ -38,14 +41,20 @@ struct FindingsArguments {
 };
 
 db::Table table_of(const std::vector<db::StoredFinding>& findings) {
-  db::Table table{
-      {"id", "state", "target", "kind", "claim", "robots", "cells", "bytes", "times_found", "last_utc"}, {}};
+  db::Table table{{"id", "state", "target", "kind", "claim", "where", "same_place", "robots", "cells", "bytes",
+                   "times_found", "last_utc"},
+                  {}};
+  // One cause breaks several targets, and one target by several ways: where it broke is the same.
+  std::map<std::string, std::int64_t> first_at;
   const auto optional = [](std::optional<std::int64_t> number) {
     return number ? db::Value{*number} : db::Value{db::Null{}};
   };
   for (const db::StoredFinding& stored : findings) {
     const db::Finding& finding = stored.finding;
-    table.rows.push_back({stored.id, stored.state, finding.target, finding.kind, finding.claim,
+    const std::string where = finding.frames.substr(0, finding.frames.find(" < "));
+    const auto same = where.empty() ? first_at.end() : first_at.emplace(where, stored.id).first;
+    table.rows.push_back({stored.id, stored.state, finding.target, finding.kind, finding.claim, where,
+                          optional(where.empty() ? std::nullopt : std::optional(same->second)),
                           optional(finding.robots), optional(finding.cells),
                           static_cast<std::int64_t>(finding.minimal.size()), stored.times_found,
                           stored.last_utc});
@@ -88,7 +97,7 @@ std::string text_of(const db::StoredFinding& stored, const db::Table& events) {
   std::string text = fmt::format("finding   {}, {}, found {} times\ntarget    {}\nwhat      {}\n", stored.id,
                                  stored.state, stored.times_found, finding.target, finding.message);
   if (!finding.frames.empty()) text += fmt::format("where     {}\n", finding.frames);
-  if (stored.fixed_commit) text += fmt::format("fixed by  {}\n", *stored.fixed_commit);
+  if (stored.fixed_commit) text += fmt::format("not reproduced at {}\n", *stored.fixed_commit);
   text += "\n" + db::format_aligned(events) + "\n";
   text += fmt::format("{} bytes, of {} as it was found:\n\n{}", finding.minimal.size(), finding.input.size(),
                       finding.minimal);
@@ -122,29 +131,50 @@ int run_show(const FindingsArguments& arguments) {
   return kSuccess;
 }
 
-/// Replay programs: below the folder of sipplab in the same build, unless said otherwise.
-fs::path programs_of(const FindingsArguments& arguments) {
-  if (arguments.programs) return *arguments.programs;
-  return fs::path(arguments.program).parent_path() / "fuzz";
+/// Where replay programs may be: of the same build, and of the others beside it, those with sanitizers first.
+std::vector<fs::path> places_of(const FindingsArguments& arguments) {
+  if (arguments.programs) return {*arguments.programs};
+  std::error_code ignored;
+  const fs::path build = fs::absolute(fs::path(arguments.program), ignored).lexically_normal().parent_path();
+  std::vector<fs::path> places{build / "fuzz"};
+  for (const char* preset : {"fuzz", "sanitize", "debug", "release"}) {
+    places.push_back(build.parent_path() / preset / "fuzz");
+  }
+  return places;
+}
+
+std::vector<std::string> names_of(const std::vector<fs::path>& paths) {
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) names.push_back(path.string());
+  return names;
 }
 
 struct Replayed {
   db::StoredFinding stored;
   std::string verdict;
+  std::string report = {};
 };
 
 db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding& stored,
-                                const fs::path& programs, const fs::path& scratch) {
-  const bench::TargetProgram program(programs, stored.finding.target, scratch);
+                                const std::vector<fs::path>& places, const fs::path& scratch) {
+  const auto programs = std::find_if(places.begin(), places.end(), [&](const fs::path& place) {
+    return fs::exists(bench::TargetProgram(place, stored.finding.target, scratch).replayer());
+  });
+  if (programs == places.end()) {
+    return Replayed{stored, fmt::format("not run: no replay_{} in {}", stored.finding.target,
+                                        fmt::join(names_of(places), ", "))};
+  }
+  const bench::TargetProgram program(*programs, stored.finding.target, scratch);
   const bench::InputVerdict verdict = program.judge(stored.finding.minimal);
-  if (verdict.verdict == bench::TargetVerdict::kNotJudged)
-    return Replayed{stored, "not run: its program is not there"};
+  if (verdict.verdict == bench::TargetVerdict::kNotJudged) {
+    return Replayed{stored, fmt::format("not run: {} did not answer", program.replayer().string())};
+  }
   const bool breaks = verdict.verdict == bench::TargetVerdict::kBreaks;
   const auto recorded = db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now());
   if (!recorded) return Unexpected{recorded.error()};
   if (!breaks) return Replayed{*recorded, "holds by now"};
-  if (verdict.signature() == stored.finding.signature()) return Replayed{*recorded, "still breaks"};
-  return Replayed{*recorded, "breaks otherwise: " + verdict.message};
+  const bool is_same = verdict.signature() == stored.finding.signature();
+  return Replayed{*recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message, verdict.report};
 }
 
 int run_replay(const FindingsArguments& arguments) {
@@ -165,8 +195,10 @@ int run_replay(const FindingsArguments& arguments) {
   db::Table table{{"id", "state", "target", "replay"}, {}};
   int code = kSuccess;
   for (const db::StoredFinding& stored : findings) {
-    const auto replayed = replay_one(*database, stored, programs_of(arguments), scratch->path());
+    const auto replayed = replay_one(*database, stored, places_of(arguments), scratch->path());
     if (!replayed) return fail(replayed.error());
+    // What a developer needs for one; of all it would be a flood.
+    if (arguments.id && !replayed->report.empty()) diagnose(std::string(trimmed(replayed->report)));
     table.rows.push_back({stored.id, replayed->stored.state, stored.finding.target, replayed->verdict});
     if (replayed->verdict.rfind("not run", 0) == 0) {
       if (code == kSuccess) code = kInconclusive;
@@ -207,7 +239,7 @@ Command add_findings_command(CLI::App& program, const Invocation& invocation) {
       replay->add_flag("--all", arguments->all, "every finding, in place of an id")->excludes(id);
   replay
       ->add_option("--programs", arguments->programs,
-                   "folder of the replay programs; default: that of this build")
+                   "folder of the replay programs; default: those of this build and of those beside it")
       ->type_name("DIR");
 
   return {findings, [=] {

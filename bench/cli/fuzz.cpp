@@ -16,6 +16,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/interrupt.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/fuzz_runs.hpp"
 #include "planner/io/case_codec.hpp"
@@ -69,6 +70,7 @@ int run_campaign(FuzzArguments& arguments) {
   if (const auto problem = problem_of(campaign)) return fail(kBadUsage, "sipplab fuzz: " + *problem);
   auto database = db::Database::open(db::database_path(arguments.history.database));
   if (!database) return fail(database.error());
+  bench::catch_interrupts("\nsipplab: ending with what was found so far; once more to end at once\n");
   const auto result = bench::run_campaign(*database, bench::run_origin(), campaign, diagnose);
   if (!result) return fail(result.error());
   for (const std::string& skipped : result->skipped) {
@@ -79,6 +81,7 @@ int run_campaign(FuzzArguments& arguments) {
   const auto table = db::list_fuzz_runs(*database, filter);
   if (!table) return fail(table.error());
   print(db::format(*table, arguments.history.output_format()));
+  if (bench::interrupted_by() != 0) return kSignalExitBase + bench::interrupted_by();
   if (!result->findings.empty()) return kNegativeVerdict;
   return result->broken ? kInconclusive : kSuccess;
 }
@@ -158,12 +161,12 @@ CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
       ->check(CLI::IsMember({"smoke", "for", "nightly"}))
       ->capture_default_str();
   run->add_option("--target", campaign.targets, "only these targets");
-  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets")->check(check_positive_real);
+  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets and by what they find")->check(check_positive_real);
   run->add_option("--executions", campaign.executions, "budget of each target")->check(CLI::PositiveNumber);
   run->add_option("--seed", campaign.seed, "of the engine")
       ->check(CLI::Range(1U, 4294967295U))
       ->capture_default_str();
-  run->add_option("--workers", campaign.workers, "processes of a nightly run")
+  run->add_option("--workers", campaign.workers, "processes at a time: of one target in a nightly run, else of so many targets")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   run->add_flag("--skip-known", campaign.skip_known,

@@ -132,6 +132,71 @@ replay_stalled '[ -e spent ] || { : >spent; (ulimit -t 3 && while :; do :; done)
 expect_code 1 "${run[@]}" --target stalled
 expect_sql 'flaky|timeout' "SELECT kind, claim FROM finding WHERE target = 'stalled'"
 
+# Two targets at a time, which break at one place; a reduction that never ends keeps what it has reached.
+for target in first second; do
+  mkdir sources/corpus/$target
+  cat >programs/$target <<'ENGINE'
+#!/usr/bin/env bash
+for argument in "$@"; do case $argument in -artifact_prefix=*) prefix=${argument#*=} ;; esac; done
+here=$(dirname "$0") own=$(basename "$0")
+case $own in first) other=second ;; *) other=first ;; esac
+: >"$here/began-$own"
+for ((i = 0; i < 600; ++i)); do [ -e "$here/began-$other" ] && break || sleep 0.1; done
+[ -e "$here/began-$other" ] && printf '0123456789' >"${prefix}crash-0"
+exit 77
+ENGINE
+  cat >programs/replay_$target <<'REPLAY'
+#!/usr/bin/env bash
+if [ "$1" = --judge ]; then
+  grep -q 5 "$2" || exit 0
+  printf '%s\n' sanitizer heap-buffer-overflow "read_cell < $(basename "$0")" 'AddressSanitizer: heap-buffer-overflow' \
+    '    #0 0x1 in read_cell(char) /src/planner/io/movingai.cpp:139:40'
+  exit 1
+fi
+printf '5\\%%\n\x01'"'" >"$3"
+sleep 98764
+REPLAY
+  chmod +x programs/$target programs/replay_$target
+done
+pair=("$sipplab" fuzz run --programs programs --sources sources --work work --target first --target second --workers 2)
+expect_code 1 "${pair[@]}" --seconds 6
+expect_sql '2|6' "SELECT count(*), max(length(minimal)) FROM finding WHERE target IN ('first', 'second')"
+grep -qF 'movingai.cpp:139:40' err || fail 'no stack in the log'
+again=$(sed -n "s/^  again: \\(printf .*\\) >input .*replay_first --judge input$/\\1/p" err)
+expect_code 0 "$sipplab" findings list --format csv
+first=$(sed -n 's/^\([0-9]*\),[a-z]*,first,.*/\1/p' out)
+"$sipplab" findings show "$first" -o smallest >/dev/null
+eval "$again" | cmp - smallest || fail "'$again' is not the smallest input"
+place=$(sed -n 's/^\([0-9]*\),[a-z]*,\(first\|second\),.*/\1/p' out | head -n 1)
+[ "$(grep -cE "^[0-9]+,[a-z]+,(first|second),sanitizer,heap-buffer-overflow,read_cell,$place," out)" -eq 2 ] ||
+  { cat out >&2 && fail 'one place is not seen as one'; }
+expect_code 1 "$sipplab" findings replay "$first" --programs programs
+grep -qF 'movingai.cpp:139:40' err || fail 'a replay hides the report'
+
+# What was found is recorded before it is made smaller: nothing is lost to a signal.
+sqlite3 "$SIPPLAB_DB" "DELETE FROM finding_event; DELETE FROM finding WHERE target IN ('first', 'second')"
+"${pair[@]}" --seconds 3600 >out 2>err &
+campaign=$!
+both() { [ "$(sqlite3 "$SIPPLAB_DB" "SELECT count(*) FROM finding WHERE target IN ('first', 'second')")" = 2 ]; }
+for ((i = 0; i < 1200; ++i)); do both && break || sleep 0.1; done
+kill -TERM "$campaign"
+code=0
+wait "$campaign" || code=$?
+[ "$code" -eq 143 ] || { cat err >&2 && fail "exit code $code after a signal, expected 143"; }
+expect_sql '2' "SELECT count(*) FROM finding WHERE target IN ('first', 'second')"
+grep -q '^finding .* in .*/findings/' err || { cat err >&2 && fail 'a signal left no file of a finding'; }
+
+# The programs of another build beside this one are found.
+mkdir -p builds/release builds/fuzz
+ln -s "$sipplab" builds/release/sipplab
+ln -s "$folder/programs" builds/fuzz/fuzz
+expect_code 1 builds/release/sipplab findings replay --all
+expect_out 'still breaks'
+grep -q 'not run' out && fail 'programs of another build are not found'
+mv builds/fuzz builds/elsewhere
+expect_code 3 builds/release/sipplab findings replay --all
+expect_out 'not run: no replay_first in'
+
 # Coverage as llvm-cov sums it up.
 cat >summary.json <<'JSON'
 {"data": [{"files": [

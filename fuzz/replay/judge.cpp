@@ -28,6 +28,8 @@ namespace {
 /// Frames that tell one bug from another; those below are common to many.
 constexpr std::size_t kFrames = 3;
 constexpr int kLeakExitCode = 23;
+/// Of a report: what went wrong and the first stack. Below come maps of memory and advice.
+constexpr std::size_t kReportLines = 30;
 
 /// What follows `marker` in the line that holds it; empty where none does.
 std::string after(const std::string& report, const std::string& marker) {
@@ -95,6 +97,14 @@ std::string frames_of(const std::string& report) {
     frames += (found++ == 0 ? "" : " < ") + name;
   }
   return frames;
+}
+
+std::string first_lines(const std::string& report) {
+  std::istringstream lines(report);
+  std::string kept;
+  std::size_t count = 0;
+  for (std::string line; count < kReportLines && std::getline(lines, line); ++count) kept += line + '\n';
+  return kept;
 }
 
 struct Child {
@@ -196,7 +206,9 @@ Judgement judge(const std::string& input) {
   const std::string how = WIFSIGNALED(child.status)
                               ? std::string("signal ") + strsignal(WTERMSIG(child.status))
                               : "exit code " + std::to_string(WEXITSTATUS(child.status));
-  return read_report(child.report, how);
+  Judgement judgement = read_report(child.report, how);
+  judgement.report = first_lines(child.report);
+  return judgement;
 }
 
 }  // namespace sipplab::fuzz

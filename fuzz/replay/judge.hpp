@@ -13,6 +13,7 @@ struct Judgement {
   std::string claim;    ///< name of the claim, condition of the invariant, type of the error
   std::string frames;   ///< innermost functions of the project, " < " between; may be empty
   std::string message;  ///< the line that says what happened, as it was printed
+  std::string report = {};  ///< the first lines that the dead process printed; not part of what is compared
 
   std::string signature() const { return kind + " | " + claim + " | " + frames; }
 };

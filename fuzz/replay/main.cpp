@@ -39,7 +39,8 @@ constexpr const char* kUsage =
     "       %s --mutate N [--seed S] [--keep F] FILE... ... and on N mutations of them, the same for\n"
     "                                                   the same seed; an input that breaks goes to F\n"
     "       %s --judge FILE                             what does it break? exit code 1 where anything\n"
-    "       %s --reduce FILE OUT                        the smallest input that breaks the same\n";
+    "       %s --reduce FILE OUT                        the smallest input that breaks the same; OUT is\n"
+    "                                                   the smallest so far at any time\n";
 
 struct Arguments {
   std::size_t mutations = 0;
@@ -134,10 +135,20 @@ int judge(const std::string& path) {
     std::printf("holds\n");
     return 0;
   }
-  // One value a line, for programs that read it.
-  std::printf("%s\n%s\n%s\n%s\n", judgement.kind.c_str(), judgement.claim.c_str(), judgement.frames.c_str(),
-              judgement.message.c_str());
+  // One value a line, for programs that read it; below them what a person reads.
+  std::printf("%s\n%s\n%s\n%s\n%s", judgement.kind.c_str(), judgement.claim.c_str(), judgement.frames.c_str(),
+              judgement.message.c_str(), judgement.report.c_str());
   return kNegative;
+}
+
+/// Writes the text whole or not at all.
+bool keep(const std::string& text, const fs::path& path) {
+  const fs::path beside = path.string() + ".part";
+  std::ofstream out(beside, std::ios::binary);
+  out << text;
+  std::error_code error;
+  if (out.flush()) fs::rename(beside, path, error);
+  return out && !error;
 }
 
 int reduce(const Arguments& arguments) {
@@ -147,13 +158,15 @@ int reduce(const Arguments& arguments) {
     std::fprintf(stderr, "%s: breaks nothing, expected an input that does\n", arguments.paths[0].c_str());
     return kBadUsage;
   }
+  // Kept as soon as it is found: whoever ends this program for its time has the smallest so far.
+  bool is_kept = keep(input, arguments.paths[1]);
   const auto still_breaks = [&](const std::string& text) {
-    return fuzz::judge(text).signature() == first.signature();
+    if (!is_kept || fuzz::judge(text).signature() != first.signature()) return false;
+    is_kept = keep(text, arguments.paths[1]);
+    return true;
   };
   const Reduction reduction = reduce_text(input, still_breaks, kReductionTries);
-  std::ofstream out(arguments.paths[1], std::ios::binary);
-  out << reduction.text;
-  if (!out.flush()) {
+  if (!is_kept) {
     std::fprintf(stderr, "%s: cannot be written\n", arguments.paths[1].c_str());
     return kBadUsage;
   }
