@@ -49,6 +49,9 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   request.folders = arguments.folders;
   request.archive = arguments.archive;
   request.random_seeds = arguments.random_seeds;
+  request.strict = arguments.strict;
+  request.radii_cells = numbers_of(arguments.radii);
+  request.speeds_cells_per_s = numbers_of(arguments.speeds);
   request.map = arguments.map;
   request.robots = arguments.robots;
   request.values = arguments.options.values();
@@ -82,7 +85,10 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
   info.shard = arguments.shard.value_or("");
   info.command_line = arguments.invocation.command_line;
   std::string cases;
-  for (const bench::NamedCase& named : sweep.cases) cases += full_name(sweep, named) + "\n";
+  for (const bench::NamedCase& named : sweep.cases) {
+    cases += fmt::format("{} {} {}\n", full_name(sweep, named), named.parameters.radius_cells,
+                         named.parameters.speed_cells_per_s);
+  }
   const PlannerOptions& options = sweep.cases.front().parameters.options;
   const auto same_limit = [&options](const bench::NamedCase& named) {
     return named.parameters.options.time_limit_s == options.time_limit_s;
@@ -164,6 +170,13 @@ std::optional<std::string> find_taken_name(db::Database& database, const BenchAr
                      database.path().string(), name, (*other)->substr(0, kShortUuid));
 }
 
+/// What files were left out, and the like.
+void say_notes(const std::vector<std::string>& notes) {
+  constexpr std::size_t kMostNotes = 20;
+  for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i) diagnose(notes[i]);
+  if (notes.size() > kMostNotes) diagnose(fmt::format("and {} more like these", notes.size() - kMostNotes));
+}
+
 /// Opens the history, runs the cases that are to be run, and reports.
 int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags,
               bench::ExpandedSweep cases) {
@@ -188,6 +201,7 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
                                           all - cases.cases.size(), all)
                             : "no unfinished run of this command, build and machine: starting a new one");
   }
+  say_notes(cases.notes);
   const std::string reason = bench::unfit_for_timing();
   if (!reason.empty()) diagnose("WARNING: " + reason + " in this build: its times are not worth comparing");
 
@@ -279,6 +293,10 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
           ->excludes(suite)
           ->type_name("DIR");
+  command.add_flag("--strict", arguments.strict, "refuse files of such a folder that are no instances, or equal")
+      ->needs(folders);
+  add_values(command, "--radius", arguments.radii, "cells; of robots in MovingAI files and of the suite");
+  add_values(command, "--speed", arguments.speeds, "cells per second; likewise");
   command.add_option("--map", arguments.map, "instead of the suite's maps; as `sipplab generate` takes it")
       ->excludes(folders);
   command.add_option("--robots", arguments.robots, "instead of the suite's numbers: 16,32,64")

@@ -21,6 +21,9 @@ struct BenchArguments {
   std::vector<std::string> folders;
   std::optional<std::string> archive;  ///< as SweepRequest::archive
   std::optional<std::uint64_t> random_seeds;
+  bool strict = false;  ///< as SweepRequest::strict
+  std::vector<std::string> radii;
+  std::vector<std::string> speeds;
   std::optional<std::string> map;
   std::vector<std::size_t> robots;
   OptionFlags options;  ///< each may have several values

@@ -62,13 +62,9 @@ GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint
   options.agents = arguments.agents;
   options.seed = arguments.seed;
   options.index = index;
-  const auto replace_default = [](const std::vector<std::string>& given, std::vector<double>& values) {
-    if (!given.empty()) values.clear();
-    for (const std::string& value : given) values.push_back(parse_real(value).value_or(0));
-  };
-  replace_default(arguments.radii, options.radii_cells);
-  replace_default(arguments.speeds, options.speeds_cells_per_s);
-  replace_default(arguments.rotation_speeds, options.rotation_speeds);
+  if (!arguments.radii.empty()) options.radii_cells = numbers_of(arguments.radii);
+  if (!arguments.speeds.empty()) options.speeds_cells_per_s = numbers_of(arguments.speeds);
+  if (!arguments.rotation_speeds.empty()) options.rotation_speeds = numbers_of(arguments.rotation_speeds);
   options.headings = arguments.headings;
   options.obstacles = arguments.obstacles;
   return options;
@@ -77,16 +73,28 @@ GeneratorOptions generator_options(const GenerateArguments& arguments, std::uint
 /// What was asked for and has no place in a MovingAI map and scenario; empty where all has.
 std::string lost_in_movingai(const GenerateArguments& arguments) {
   if (arguments.format != "movingai") return "";
-  const auto differ = [](const std::vector<std::string>& values, double usual) {
-    return std::any_of(values.begin(), values.end(),
-                       [usual](const std::string& value) { return parse_real(value) != usual; });
+  // One value for all is given back with --radius and --speed when the files are read.
+  const auto differ = [](const std::vector<std::string>& values) {
+    const std::vector<double> numbers = numbers_of(values);
+    return std::any_of(numbers.begin(), numbers.end(), [&](double number) { return number != numbers.front(); });
   };
-  const Agent usual;
-  if (differ(arguments.radii, usual.radius_cells)) return "radii";
-  if (differ(arguments.speeds, usual.speed_cells_per_s)) return "speeds";
-  if (differ(arguments.rotation_speeds, usual.rotation_speed)) return "rotation speeds";
+  if (differ(arguments.radii)) return "several radii";
+  if (differ(arguments.speeds)) return "several speeds";
+  const std::vector<double> rotation_speeds = numbers_of(arguments.rotation_speeds);
+  if (rotation_speeds != std::vector<double>(rotation_speeds.size(), kDefaultRotationSpeed)) {
+    return "rotation speeds";
+  }
   if (arguments.headings) return "headings";
   return arguments.obstacles > 0 ? "moving obstacles" : "";
+}
+
+/// What a scenario does not state, as the flags that say it again.
+std::string unwritten_flags(const GenerateArguments& arguments) {
+  std::string flags;
+  if (arguments.format != "movingai") return flags;
+  if (!arguments.radii.empty()) flags += " --radius " + arguments.radii.front();
+  if (!arguments.speeds.empty()) flags += " --speed " + arguments.speeds.front();
+  return flags;
 }
 
 int run_generate(const GenerateArguments& arguments) {
@@ -130,9 +138,10 @@ int run_generate(const GenerateArguments& arguments) {
     json["files"] = std::move(written);
     print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else {
-    print(fmt::format("{} instance{} of {} robot{} on {} in {}\nsweep them: sipplab bench --instances {}\n",
+    print(fmt::format("{} instance{} of {} robot{} on {} in {}\nsweep them: sipplab bench --instances {}{}\n",
                       arguments.count, arguments.count == 1 ? "" : "s", arguments.agents,
-                      arguments.agents == 1 ? "" : "s", arguments.map, arguments.folder, arguments.folder));
+                      arguments.agents == 1 ? "" : "s", arguments.map, arguments.folder, arguments.folder,
+                      unwritten_flags(arguments)));
   }
   return kSuccess;
 }
@@ -154,12 +163,9 @@ Command add_generate_command(CLI::App& program) {
   command->add_option("--seed", arguments->seed, "of maps, starts and goals")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
-  const auto add_values = [command](const char* name, std::vector<std::string>& values, const char* words) {
-    command->add_option(name, values, words)->delimiter(',')->check(check_positive_real)->type_name("X,..");
-  };
-  add_values("--radius", arguments->radii, "cells; drawn from these for each robot; default 0.5");
-  add_values("--speed", arguments->speeds, "cells per second; default 1");
-  add_values("--rotation-speed", arguments->rotation_speeds, "half turns per second; default 1");
+  add_values(*command, "--radius", arguments->radii, "cells; drawn from these for each robot; default 0.5");
+  add_values(*command, "--speed", arguments->speeds, "cells per second; default 1");
+  add_values(*command, "--rotation-speed", arguments->rotation_speeds, "half turns per second; default 1");
   command->add_option("--obstacles", arguments->obstacles, "moving obstacles that cross the map")
       ->check(CLI::Range(std::uint64_t{0}, kMaxObstacles))
       ->capture_default_str();

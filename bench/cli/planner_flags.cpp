@@ -49,6 +49,17 @@ CLI::Validator real_between(double low, double high) {
   return {check, "FLOAT " + range};
 }
 
+void add_values(CLI::App& command, const std::string& flag, std::vector<std::string>& values,
+                const std::string& words) {
+  command.add_option(flag, values, words)->delimiter(',')->check(check_positive_real)->type_name("X,..");
+}
+
+std::vector<double> numbers_of(const std::vector<std::string>& texts) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts) numbers.push_back(parse_real(text).value_or(0));
+  return numbers;
+}
+
 void InstanceFlags::add_to(CLI::App& command) {
   command.option_defaults()->group("Input");
   command.add_option("--instance", files_.instance,
@@ -58,6 +69,11 @@ void InstanceFlags::add_to(CLI::App& command) {
   command.add_option("--config", files_.config, "planner options (XML); command-line flags override it");
   command.add_option("--obstacles", files_.obstacles, "dynamic obstacles (XML)");
   command.add_option("--agents", files_.agents, "only the first N agents");
+  const auto add_value = [&command](const char* flag, std::vector<std::string>& value, const char* words) {
+    command.add_option(flag, value, words)->expected(1)->check(check_positive_real)->type_name("X");
+  };
+  add_value("--radius", radius_, "cells; of robots in a .scen, which states none; default 0.5");
+  add_value("--speed", speed_, "cells per second; likewise; default 1");
   command.add_flag("--allow-unreachable", files_.allow_unreachable,
                    "take instances in which a goal cannot be reached");
   command.option_defaults()->group("Options");
@@ -68,7 +84,10 @@ Expected<LoadedInstance, std::string> InstanceFlags::load() const {
     return Unexpected{
         std::string("sipplab: no instance given, expected --instance FILE, or --map FILE --task FILE")};
   }
-  Input<LoadedInstance> loaded = load_instance(files_);
+  InstanceFiles files = files_;
+  if (!radius_.empty()) files.radius_cells = parse_real(radius_.front());
+  if (!speed_.empty()) files.speed_cells_per_s = parse_real(speed_.front());
+  Input<LoadedInstance> loaded = load_instance(files);
   if (!loaded) return Unexpected{loaded.error().message()};
   for (const std::string& warning : loaded->warnings) diagnose("warning: " + warning);
   return std::move(*loaded);

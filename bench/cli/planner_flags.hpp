@@ -14,7 +14,7 @@
 
 namespace sipplab::cli {
 
-/// --instance, --map, --task, --config, --obstacles, --agents, --allow-unreachable.
+/// --instance, --map, --task, --config, --obstacles, --agents, --radius, --speed, --allow-unreachable.
 class InstanceFlags {
  public:
   void add_to(CLI::App& command);
@@ -24,6 +24,8 @@ class InstanceFlags {
 
  private:
   InstanceFiles files_;
+  std::vector<std::string> radius_;
+  std::vector<std::string> speed_;
 };
 
 /// Flags of the planner's options, from their table. Empty unless the user gave them.
@@ -51,6 +53,10 @@ inline constexpr std::size_t kMostRobots = 1'000'000;
 /// Checks for CLI11: empty when the text is right, else what was expected.
 std::string check_ssi(const std::string& text);
 std::string check_positive_real(const std::string& text);
+/// A flag of one or more numbers above 0, "0.3,1.4".
+void add_values(CLI::App& command, const std::string& flag, std::vector<std::string>& values,
+                const std::string& words);
+std::vector<double> numbers_of(const std::vector<std::string>& texts);
 /// A number in [low, high]. CLI::Range lets "nan" through, which is below and above nothing.
 CLI::Validator real_between(double low, double high);
 

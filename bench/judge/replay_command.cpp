@@ -58,9 +58,15 @@ std::string replay_command(const db::CaseInfo& parameters, const std::string& in
   const std::optional<std::uint64_t> index = number_after(instance_name, " index:");
   const std::optional<std::uint64_t> seed = number_after(instance_name, " seed:");
   const bool is_ours = !is_another_program(parameters.planner);
+  const bool is_scenario = instance_name.ends_with(".scen");  // which states neither
+  const auto body = [&](const char* flag, double value, double usual) {
+    return is_scenario && value != usual && value > 0 ? fmt::format(" {} {}", flag, value) : std::string();
+  };
+  const std::string bodies = body("--radius", parameters.radius_cells, kDefaultRadiusCells) +
+                             body("--speed", parameters.speed_cells_per_s, kDefaultSpeedCellsPerS);
   const auto plan = [&](const std::string& file) {
     if (!is_ours) return fmt::format("give {} to {}", file, parameters.planner);
-    return fmt::format("sipplab plan --instance {}{}", file, option_flags(options_of(parameters)));
+    return fmt::format("sipplab plan --instance {}{}{}", file, bodies, option_flags(options_of(parameters)));
   };
   if (parameters.map_spec == "files" || !index || !seed) {
     return plan(instance_name);

@@ -27,6 +27,8 @@ std::vector<PlannerOptions> with_each(const std::vector<PlannerOptions>& all, co
 SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
   if (request.map) block.map = *request.map;
   if (!request.robots.empty()) block.robots = request.robots;
+  if (!request.radii_cells.empty()) block.bodies.radii_cells = request.radii_cells;
+  if (!request.speeds_cells_per_s.empty()) block.bodies.speeds_cells_per_s = request.speeds_cells_per_s;
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
   for (PlannerOptions& options : block.planners) {
     if (request.suite == nullptr) break;
@@ -63,6 +65,7 @@ PlannerOptions without_idle_choices(PlannerOptions options) {
 std::optional<std::string> find_unplannable(const ExpandedSweep& sweep) {
   for (const NamedCase& named : sweep.cases) {
     for (const PreparedInstance& prepared : sweep.sets[named.parameters.set].instances) {
+      if (!prepared.broken.empty()) continue;
       if (const auto line = find_beyond(prepared.instance, named.parameters.options)) {
         return prepared.row.name + ": " + *line;
       }
@@ -114,11 +117,15 @@ class Expansion {
     if (!std::filesystem::is_directory(folder) || std::filesystem::is_empty(folder)) {
       return std::optional<std::size_t>();
     }
-    Expected<std::vector<InstanceSet>, std::string> sets = load_sets(folder.string(), {robots}, count);
-    if (!sets) return Unexpected{sets.error()};
-    if (sets->empty()) return std::optional<std::size_t>();
-    archived_.emplace_back(folder, add_set(std::move(sets->front())));
+    Expected<LoadedSets, std::string> loaded = load_sets(folder.string(), {.robots = {robots}, .count = count});
+    if (!loaded) return Unexpected{loaded.error()};
+    add_notes(loaded->notes);
+    archived_.emplace_back(folder, add_set(std::move(loaded->sets.front())));
     return std::optional(archived_.back().second);
+  }
+
+  void add_notes(const std::vector<std::string>& notes) {
+    sweep_.notes.insert(sweep_.notes.end(), notes.begin(), notes.end());
   }
 
   ExpandedSweep take() { return std::move(sweep_); }
@@ -150,11 +157,17 @@ class Expansion {
 Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request) {
   const SuiteBlock block = replaced({}, request);
   Expansion expansion(request);
+  const auto one = [](const std::vector<double>& values) {
+    return values.empty() ? std::nullopt : std::optional(values.front());
+  };
+  const FolderRequest wanted{request.robots, request.count, one(request.radii_cells),
+                             one(request.speeds_cells_per_s), request.strict};
   std::set<std::pair<std::string, std::size_t>> seen;
   for (const std::string& folder : request.folders) {
-    Expected<std::vector<InstanceSet>, std::string> sets = load_sets(folder, request.robots, request.count);
-    if (!sets) return Unexpected{sets.error()};
-    for (InstanceSet& set : *sets) {
+    Expected<LoadedSets, std::string> loaded = load_sets(folder, wanted);
+    if (!loaded) return Unexpected{loaded.error()};
+    expansion.add_notes(loaded->notes);
+    for (InstanceSet& set : loaded->sets) {
       if (!seen.emplace(set.environment, set.robots).second) {
         return Unexpected{folder + ": a second set " + set.environment + " with " +
                           std::to_string(set.robots) +
@@ -183,7 +196,13 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
 }
 
 Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
+  if (request.suite == nullptr && (request.radii_cells.size() > 1 || request.speeds_cells_per_s.size() > 1)) {
+    return Unexpected{std::string("several radii or speeds for the robots of files, expected one")};
+  }
   if (request.suite == nullptr) return expand_folders(request);
+  if (request.suite->adversarial_cases && !(request.radii_cells.empty() && request.speeds_cells_per_s.empty())) {
+    return Unexpected{std::string("--radius or --speed for robots that have their own, expected another suite")};
+  }
   if (request.suite->adversarial_cases) return expand_adversarial(request);
   const Suite& suite = *request.suite;
   Expansion expansion(request);

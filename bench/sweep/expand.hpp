@@ -23,7 +23,11 @@ struct SweepRequest {
   std::optional<std::string> archive;
   std::optional<std::uint64_t> random_seeds;  ///< instead of the suite's, where something is random
   std::vector<std::string> folders;           ///< planned with PlannerOptions' defaults unless replaced
+  bool strict = false;                        ///< as FolderRequest::strict
   std::optional<std::string> map;
+  /// Instead of the suite's bodies; of MovingAI files, which state none, one value each.
+  std::vector<double> radii_cells = {};
+  std::vector<double> speeds_cells_per_s = {};
   std::vector<std::size_t> robots;
   /// Of options: instead of the suite's, each with each. A dimension of the suite is replaced.
   std::vector<OptionValues> values;
@@ -40,6 +44,7 @@ struct NamedCase {
 struct ExpandedSweep {
   std::vector<NamedCase> cases;  ///< names are unique
   std::vector<InstanceSet> sets;
+  std::vector<std::string> notes = {};  ///< as LoadedSets::notes
 };
 
 /// Makes or reads all instances. Errors: one line; also where an instance lies beyond the

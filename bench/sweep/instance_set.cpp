@@ -9,9 +9,11 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/sweep/run_info.hpp"
 #include "planner/generator/generator.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -83,32 +85,99 @@ std::vector<fs::path> sorted_entries(const fs::path& folder, bool folders, std::
   return found;
 }
 
-/// Adds the files of one folder to `sets`, by number of robots.
-std::optional<std::string> load_files(const fs::path& folder, const std::vector<fs::path>& files,
-                                      std::optional<std::size_t> robots, std::vector<InstanceSet>& sets) {
-  std::map<std::size_t, InstanceSet> by_robots;
-  for (const fs::path& file : files) {
-    InstanceFiles request;
-    request.instance = file.string();
-    request.agents = robots;
-    Input<LoadedInstance> loaded = load_instance(request);
-    if (!loaded) return loaded.error().message();
-    const std::size_t agents = loaded->instance.agents.size();
-    InstanceSet& set = by_robots[agents];
-    set.robots = agents;
-    set.instances.push_back(
-        prepare(std::move(loaded->instance), short_name(folder, true) + "/" + file.filename().string()));
-  }
-  for (auto& [agents, set] : by_robots) {
-    set.environment = short_name(folder, false);
-    set.map_spec = "files";
-    set.name = short_name(folder, true);
-    set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);
-    set.speed_cells_per_s = common_value(set, &Agent::speed_cells_per_s, kDefaultSpeedCellsPerS);
-    sets.push_back(std::move(set));
-  }
-  return std::nullopt;
+/// As the history knows a file that is no instance it can hold: by its bytes.
+PreparedInstance broken_instance(const fs::path& file, std::string name, std::string line) {
+  const Input<std::string> text = read_file(file.string());
+  PreparedInstance prepared;
+  prepared.row.content_hash = text_digest(text ? *text : name);
+  prepared.row.map_hash = prepared.row.content_hash;
+  prepared.row.name = std::move(name);
+  prepared.broken = std::move(line);
+  return prepared;
 }
+
+/// The files of one folder, and what is to be said of them.
+class FolderReader {
+ public:
+  FolderReader(const fs::path& folder, const FolderRequest& request, LoadedSets& loaded)
+      : folder_(folder), request_(request), loaded_(loaded) {}
+
+  /// The files that may be instances.
+  std::vector<fs::path> instances(std::vector<fs::path> files) {
+    std::erase_if(files, [this](const fs::path& file) {
+      const std::string kind = kind_without_robots(file.string());
+      if (!kind.empty()) say(fmt::format("{}: {}, expected an instance; left out", file.string(), kind));
+      return !kind.empty();
+    });
+    if (request_.count && files.size() > *request_.count) files.resize(*request_.count);
+    return files;
+  }
+
+  /// Adds a set for each number of robots, all with the same `robots` where that is given.
+  void add_sets(const std::vector<fs::path>& files, std::optional<std::size_t> robots) {
+    std::map<std::size_t, InstanceSet> by_robots;
+    std::vector<PreparedInstance> broken;
+    for (const fs::path& file : files) {
+      const std::string name = short_name(folder_, true) + "/" + file.filename().string();
+      InstanceFiles request;
+      request.instance = file.string();
+      request.agents = robots;
+      request.radius_cells = request_.radius_cells;
+      request.speed_cells_per_s = request_.speed_cells_per_s;
+      Input<LoadedInstance> instance = load_instance(request);
+      if (!instance) {
+        broken.push_back(broken_instance(file, name, instance.error().message()));
+        continue;
+      }
+      PreparedInstance prepared = prepare(std::move(instance->instance), name);
+      note_equal(prepared);
+      InstanceSet& set = by_robots[prepared.instance.agents.size()];
+      set.robots = prepared.instance.agents.size();
+      set.instances.push_back(std::move(prepared));
+    }
+    for (PreparedInstance& instance : broken) place(std::move(instance), by_robots);
+    for (auto& [agents, set] : by_robots) {
+      set.environment = short_name(folder_, false);
+      set.map_spec = "files";
+      set.name = short_name(folder_, true);
+      set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);
+      set.speed_cells_per_s = common_value(set, &Agent::speed_cells_per_s, kDefaultSpeedCellsPerS);
+      loaded_.sets.push_back(std::move(set));
+    }
+  }
+
+  /// The first file that could not be read, and, where the request is strict, the first thing said at all.
+  const std::string& error() const { return error_; }
+
+ private:
+  void say(const std::string& line) {
+    if (request_.strict && error_.empty()) error_ = line;
+    loaded_.notes.push_back(line);
+  }
+  void note_equal(const PreparedInstance& prepared) {
+    const auto [known, is_new] = seen_.emplace(prepared.row.content_hash, prepared.row.name);
+    if (!is_new && known->second != prepared.row.name) {
+      say(fmt::format("{}: the same instance as {}", prepared.row.name, known->second));
+    }
+  }
+  /// Into the set with most instances; an error where there is none.
+  void place(PreparedInstance broken, std::map<std::size_t, InstanceSet>& by_robots) {
+    if (by_robots.empty() && error_.empty()) error_ = broken.broken;
+    say(broken.broken);
+    const auto largest = std::max_element(by_robots.begin(), by_robots.end(), [](const auto& a, const auto& b) {
+      return a.second.instances.size() < b.second.instances.size();
+    });
+    if (largest == by_robots.end()) return;
+    broken.row.robots = static_cast<std::int64_t>(largest->first);
+    largest->second.instances.push_back(std::move(broken));
+  }
+
+  const fs::path& folder_;
+  const FolderRequest& request_;
+  LoadedSets& loaded_;
+  std::map<std::string, std::string> seen_;  ///< name by content
+  std::string error_;
+};
 
 /// " radius:0.3,1.4 speed:1,2 headings obstacles:2"; nothing for robots as they usually are.
 std::string words_for(const Bodies& bodies) {
@@ -199,26 +268,26 @@ Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std
   return set;
 }
 
-Expected<std::vector<InstanceSet>, std::string> load_sets(const std::string& folder,
-                                                          const std::vector<std::size_t>& robots,
-                                                          std::optional<std::uint64_t> count) {
+Expected<LoadedSets, std::string> load_sets(const std::string& folder, const FolderRequest& request) {
   std::error_code error;
   std::vector<fs::path> folders = {fs::path(folder)};
   if (sorted_entries(folder, false, error).empty() && !error) folders = sorted_entries(folder, true, error);
   if (error) return Unexpected{folder + ": " + error.message() + ", expected a folder of instances"};
 
-  std::vector<std::optional<std::size_t>> wanted(robots.begin(), robots.end());
+  std::vector<std::optional<std::size_t>> wanted(request.robots.begin(), request.robots.end());
   if (wanted.empty()) wanted.push_back(std::nullopt);
-  std::vector<InstanceSet> sets;
+  LoadedSets loaded;
   for (const fs::path& part : folders) {
-    std::vector<fs::path> files = sorted_entries(part, false, error);
-    if (count && files.size() > *count) files.resize(*count);
-    for (const std::optional<std::size_t> number : wanted) {
-      if (auto line = load_files(part, files, number, sets)) return Unexpected{std::move(*line)};
-    }
+    FolderReader reader(part, request, loaded);
+    const std::vector<fs::path> files = reader.instances(sorted_entries(part, false, error));
+    for (const std::optional<std::size_t> number : wanted) reader.add_sets(files, number);
+    if (!reader.error().empty()) return Unexpected{reader.error()};
   }
-  if (sets.empty()) return Unexpected{folder + ": no instances in it, expected .xml or .scen files"};
-  return sets;
+  if (loaded.sets.empty()) {
+    return Unexpected{loaded.notes.empty() ? folder + ": no instances in it, expected .xml or .scen files"
+                                           : loaded.notes.front()};
+  }
+  return loaded;
 }
 
 }  // namespace sipplab::bench

@@ -91,6 +91,11 @@ bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(
 
 Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
                                                      const SweepCase& parameters) const {
+  if (!prepared.broken.empty()) {
+    db::ResultRow row;
+    row.message = prepared.broken;
+    return row;
+  }
   if (command_) return command_->run(prepared.instance, parameters.options);
   const PeakMemory memory;
   db::ResultRow row = run_instance(prepared.instance, parameters.options);

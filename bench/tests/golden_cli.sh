@@ -132,6 +132,42 @@ expect 0 bench --instances bodies --turns --wait-before-move 0.25 --inflate-time
 equal "$(sqlite3 rules.db 'SELECT DISTINCT planner FROM v_run_cells')" 'sipplab turns:yes wait-before-move:0.25 inflate-time:0.5' 'the rules in the history'
 refused 'inflated distances or times, expected none' bench --instances bodies --inflate-time 1 --improve 5i --db rules.db
 
+# A folder as one finds it: a log beside the instances, a file that is cut off, an instance twice.
+mkdir stray && cp warehouse/0.xml warehouse/1.xml stray/ && cp warehouse/1.xml stray/7.xml
+"$sipplab" plan --instance warehouse/0.xml --format xml -o stray/0_log.xml >/dev/null
+head -c 700 warehouse/2.xml >stray/9.xml
+expect 0 bench --instances stray --db stray.db
+says '^stray/0_log.xml: a solution, expected an instance; left out$' err
+says 'stray/7.xml: the same instance as .*stray/1.xml$' err
+says '^stray/9.xml:[0-9]+: ' err
+equal "$(sqlite3 stray.db "SELECT group_concat(status), sum(message LIKE 'stray/9.xml:%') FROM (SELECT * FROM v_results ORDER BY position)")" \
+  'solved,solved,solved,failed|1' 'a broken instance costs its own row'
+refused 'stray/0_log.xml: a solution' bench --instances stray --strict --db stray.db
+rm stray/0_log.xml
+refused 'stray/7.xml: the same instance' bench --instances stray --strict --db stray.db
+rm stray/7.xml
+refused 'stray/9.xml:[0-9]+: ' bench --instances stray --strict --db stray.db
+rm stray/9.xml
+expect 0 bench --instances stray --strict --db stray.db
+[ ! -s err ] || ! grep -q '^stray/' err || complain "something is said of a clean folder: $(cat err)"
+
+# MovingAI's files state no bodies.
+scenario=(--map movingai/0.map --task movingai/0.scen)
+expect 0 plan "${scenario[@]}" --radius 0.3 --speed 2 --json
+says '"radius": 0.3, "speed": 2,'
+cp out small_and_quick.json
+expect 0 validate "${scenario[@]}" --radius 0.3 --speed 2 --solution small_and_quick.json
+expect 1 validate "${scenario[@]}" --radius 0.3 --solution small_and_quick.json
+refused 'warehouse/0.xml:[0-9]+: robots with a radius and speed of their own' plan --instance warehouse/0.xml --radius 0.3
+refused 'radius.*-1' plan "${scenario[@]}" --radius -1
+expect 0 bench --instances movingai --radius 0.3 --speed 2 --db radius.db
+expect 0 bench --suite smoke --map empty:9x9 --robots 2 --count 1 --ssi 0 --reschedule none --order shortest --radius 0.25 --db radius.db
+equal "$(sqlite3 radius.db 'SELECT DISTINCT radius_cells, speed_cells_per_s FROM v_cases ORDER BY 1')" $'0.25|1.0\n0.3|2.0' 'bodies in the history'
+refused 'several radii' bench --instances movingai --radius 0.3,0.4 --db radius.db
+refused 'their own' bench --suite adversarial --radius 0.3 --db radius.db
+expect 0 generate --map empty:9x9 --agents 3 --format movingai --radius 0.3 --speed 2 -o small
+says 'sipplab bench --instances small --radius 0.3 --speed 2$'
+
 expect 0 bench --instances bodies --weight 1,1.05 --max-restarts 3 --db weights.db
 equal "$(sqlite3 weights.db 'SELECT group_concat(weight) FROM (SELECT weight FROM v_cases ORDER BY weight)')" \
   '1.0,1.05' 'the weights in the history'
@@ -199,7 +235,7 @@ refused 'robots' reproduce aamas2018 --robots 18446744073709551615 --db history.
 refused 'max-expansions.*-1' plan --instance warehouse/0.xml --max-expansions -1
 refused 'limit.*-1' runs --limit -1 --db history.db
 refused 'rows.*-1' trend success --rows -1 --db history.db
-refused 'movingai.*radii' generate --map empty:9x9 --agents 1 --format movingai --radius 0.3 -o too_many
+refused 'movingai.*radii' generate --map empty:9x9 --agents 1 --format movingai --radius 0.3,0.4 -o too_many
 refused 'movingai.*obstacles' generate --map empty:9x9 --agents 1 --format movingai --obstacles 2 -o too_many
 refused 'benchmark_out' bench --suite smoke --benchmark_out=nowhere/x.json --db history.db
 expect 0 generate --map warehouse --agents 3 --seed 899472 --speed 1000 --obstacles 3 -o quick

@@ -43,6 +43,7 @@ struct InstanceParts {
   std::optional<MapPart> map;
   std::optional<MapReference> map_reference;
   std::optional<LinedList<Agent>> agents;
+  bool states_bodies = true;  ///< radii and speeds; MovingAI's scenarios do not
   std::optional<LinedList<DynamicObstacle>> obstacles;
   std::optional<OptionsPart> options;
   std::vector<std::string> warnings;

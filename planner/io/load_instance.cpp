@@ -48,6 +48,7 @@ Input<InstanceParts> parse_parts(std::string_view text, const std::string& file_
                                            scenario->map_height, scenario->agent_lines.front()};
       }
       parts.agents = LinedList<Agent>{std::move(scenario->agents), std::move(scenario->agent_lines), 1};
+      parts.states_bodies = false;
       return parts;
     }
     case TextFormat::kUnknown:
@@ -138,6 +139,20 @@ Input<Sources> read_sources(const InstanceFiles& files) {
   return sources;
 }
 
+/// Gives robots of a file without bodies the one that was asked for.
+std::optional<InputError> set_bodies(InstanceParts& parts, const InstanceFiles& files) {
+  if (!files.radius_cells && !files.speed_cells_per_s) return std::nullopt;
+  if (parts.states_bodies) {
+    return InputError{parts.file_name, parts.agents->line, "robots with a radius and speed of their own",
+                      "a MovingAI scenario where a radius or speed is given besides"};
+  }
+  for (Agent& agent : parts.agents->items) {
+    agent.radius_cells = files.radius_cells.value_or(agent.radius_cells);
+    agent.speed_cells_per_s = files.speed_cells_per_s.value_or(agent.speed_cells_per_s);
+  }
+  return std::nullopt;
+}
+
 /// Cuts the list to the first `wanted` agents.
 std::optional<InputError> keep_first(LinedList<Agent>& agents, std::size_t wanted,
                                      const std::string& file_name) {
@@ -216,6 +231,7 @@ Input<LoadedInstance> load_instance(const InstanceFiles& files) {
                                        size(instance.map.width(), instance.map.height())}};
     }
   }
+  if (auto error = set_bodies(*agents, files)) return Unexpected{*error};
   if (files.agents) {
     if (auto error = keep_first(*agents->agents, *files.agents, agents->file_name)) return Unexpected{*error};
   }
@@ -230,6 +246,22 @@ Input<LoadedInstance> load_instance(const InstanceFiles& files) {
     }
   }
   return loaded;
+}
+
+std::string kind_without_robots(const std::string& path) {
+  const Input<std::string> text = read_text(path);
+  if (!text) return "";
+  switch (format_of(*text)) {
+    case TextFormat::kXml:
+      return xml_without_robots(*text, path);
+    case TextFormat::kMovingaiMap:
+      return "a map";
+    case TextFormat::kMovingaiScenario:
+      return "";
+    case TextFormat::kUnknown:
+      break;
+  }
+  return text->empty() ? "an empty file" : "neither XML nor a MovingAI file";
 }
 
 Input<GridMap> load_map(const std::string& path) {

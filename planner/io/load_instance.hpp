@@ -26,6 +26,9 @@ struct InstanceFiles {
   std::optional<std::string> obstacles;
   /// Only the first so many agents; asking for more than there are is an error.
   std::optional<std::size_t> agents;
+  /// Of robots whose file states none, as MovingAI's scenarios; an error for other files.
+  std::optional<double> radius_cells;
+  std::optional<double> speed_cells_per_s;
   /// Let a goal pass that its robot cannot reach on the empty map.
   bool allow_unreachable = false;
 };
@@ -39,6 +42,10 @@ struct LoadedInstance {
 /// Reads, checks and joins the files. Errors: the first thing that is wrong, with
 /// file and line, unreachable goals included.
 Input<LoadedInstance> load_instance(const InstanceFiles& files);
+
+/// What a file is that holds no robots to plan for: "a solution", "a map", "XML without agents", "neither XML nor a
+/// MovingAI file". Empty for one that is an instance or a broken one, and where it cannot be read.
+std::string kind_without_robots(const std::string& path);
 
 /// The map alone, from a MovingAI .map or any XML with a <map>.
 Input<GridMap> load_map(const std::string& path);

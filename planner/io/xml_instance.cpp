@@ -210,7 +210,17 @@ LinedList<DynamicObstacle> read_obstacles(XmlReader& reader, xml_node node) {
   return obstacles;
 }
 
+bool holds_agents(xml_node map) { return map.child("agents") || map.child("startx"); }
+
 }  // namespace
+
+std::string xml_without_robots(std::string_view text, const std::string& file_name) {
+  const Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
+  if (!parsed) return "";
+  const xml_node root = (*parsed)->root();
+  if (root.child("log")) return "a solution";
+  return root.child("agents") || holds_agents(root.child("map")) ? "" : "XML without agents";
+}
 
 Input<InstanceParts> parse_xml_instance(std::string_view text, const std::string& file_name) {
   Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
@@ -222,7 +232,7 @@ Input<InstanceParts> parse_xml_instance(std::string_view text, const std::string
   InstanceParts parts;
   parts.file_name = file_name;
   const xml_node map = reader.only_child(root, "map");
-  const bool agents_in_map = map && (map.child("agents") || map.child("startx"));
+  const bool agents_in_map = holds_agents(map);
   if (const xml_node agents = reader.only_child(root, "agents")) {
     if (agents_in_map) reader.fail(agents, "<agents> besides those in <map>", "one of the two");
     parts.agents = read_agents(reader, agents);
