@@ -89,6 +89,15 @@ fs::path database_path(const std::optional<std::string>& option) {
 Database::Database(sqlite::Connection connection, fs::path path)
     : connection_(std::move(connection)), path_(std::move(path)) {}
 
+Database::LogSweeper::~LogSweeper() {
+  std::error_code code;
+  const fs::path log = path_.string() + "-wal";
+  if (!fs::exists(log, code) || has_write_ahead_log(path_) || !fs::exists(path_, code)) return;
+  // What it is asked does not matter, but it has to look at the log to be one of its users.
+  auto connection = sqlite::Connection::open(path_, sqlite::OpenMode::kReadWrite);
+  if (connection) static_cast<void>(connection->query_int("PRAGMA schema_version", "closing it"));
+}
+
 int Database::latest_schema_version() { return migrations().back().version; }
 
 Result<Database> Database::open(const fs::path& path) {
@@ -117,7 +126,9 @@ Result<Database> Database::open_read_only(const fs::path& path) {
     connection = open_for_reading(path, state);
     if (!connection) return Unexpected{connection.error()};
   }
-  return Database{std::move(*connection), path};
+  Database database{std::move(*connection), path};
+  database.sweeper_ = std::make_unique<LogSweeper>(path);
+  return database;
 }
 
 }  // namespace sipplab::db

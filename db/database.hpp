@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
@@ -23,7 +25,8 @@ class Database {
   static Result<Database> open(const std::filesystem::path& path);
 
   /// Opens for reading; a missing file is an error. An older history is migrated
-  /// first, for which it must be writable.
+  /// first, for which it must be writable. Where that is allowed, reading leaves no
+  /// file beside the history.
   static Result<Database> open_read_only(const std::filesystem::path& path);
 
   sqlite::Connection& connection() { return connection_; }
@@ -33,8 +36,22 @@ class Database {
   static int latest_schema_version();
 
  private:
+  /// SQLite makes a log even to read, and only a connection that may write takes it away again, as the last one
+  /// that closes. Does so when it is destroyed, where the log is empty.
+  class LogSweeper {
+   public:
+    explicit LogSweeper(std::filesystem::path path) : path_(std::move(path)) {}
+    ~LogSweeper();
+    LogSweeper(const LogSweeper&) = delete;
+    LogSweeper& operator=(const LogSweeper&) = delete;
+
+   private:
+    std::filesystem::path path_;
+  };
+
   Database(sqlite::Connection connection, std::filesystem::path path);
 
+  std::unique_ptr<LogSweeper> sweeper_;  ///< of a reader; goes after its connection
   sqlite::Connection connection_;
   std::filesystem::path path_;
 };

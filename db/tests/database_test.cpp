@@ -119,6 +119,30 @@ TEST_F(OpenDatabase, reading_makes_no_file) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+std::size_t files_in(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator entries(folder);
+  return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+}
+
+TEST_F(OpenDatabase, reading_leaves_no_file_beside_it) {
+  test::must(Database::open(file));
+  ASSERT_EQ(files_in(folder), 1U);
+  {
+    auto first = test::must(Database::open_read_only(file));
+    auto second = test::must(Database::open_read_only(file));
+    EXPECT_GT(files_in(folder), 1U);  // else this test shows nothing
+  }
+  EXPECT_EQ(files_in(folder), 1U);
+}
+
+TEST_F(OpenDatabase, a_reader_leaves_the_log_of_a_writer_alone) {
+  auto writer = test::must(Database::open(file));
+  test::must(writer.connection().execute("PRAGMA wal_autocheckpoint = 0; UPDATE run SET suite = suite", "writing"));
+  { auto reader = test::must(Database::open_read_only(file)); }
+  EXPECT_TRUE(std::filesystem::exists(file.string() + "-wal"));
+  test::must(writer.connection().execute("CREATE TABLE more (x INTEGER) STRICT; DROP TABLE more", "writing on"));
+}
+
 TEST_F(OpenDatabase, reading_an_empty_file_is_an_error) {
   std::ofstream{file};
   const auto result = Database::open_read_only(file);
