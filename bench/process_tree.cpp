@@ -1,6 +1,7 @@
 #include "bench/process_tree.hpp"
 
 #include <dirent.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ std::vector<Process> all_processes() {
 
 /// Its part of the pages that it shares, where the kernel tells; else all of them.
 std::uint64_t proportional_bytes(const Process& process, std::uint64_t otherwise) {
-  std::ifstream file("/proc/" + std::to_string(process.id) + "/smaps_rollup");
+  std::ifstream file(fmt::format("/proc/{}/smaps_rollup", process.id));
   constexpr std::uint64_t kBytesPerKib = 1024;
   std::string word;
   std::uint64_t kib = 0;

@@ -146,7 +146,7 @@ constexpr std::string_view kInterpreters = " sh bash dash ksh zsh python pypy pe
 constexpr std::string_view kSettings = " cd export ulimit umask set ";
 
 bool is_in(std::string_view words, std::string_view word) {
-  return words.find(" " + std::string(word) + " ") != std::string_view::npos;
+  return words.find(fmt::format(" {} ", word)) != std::string_view::npos;
 }
 
 std::string base_name(const std::string& word) { return fs::path(word).filename().string(); }
@@ -419,7 +419,7 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
                               files.size() > 2 ? ", ..." : "");
   } else {
     judge(instance, options.rules, files.front(), spec_.rounding, row);
-    if (row.status == db::ResultStatus::kFailed && !row.message.empty()) row.message += ", " + ending(run) + words;
+    if (row.status == db::ResultStatus::kFailed && !row.message.empty()) row.message.append(", ").append(ending(run)).append(words);
   }
   return row;
 }

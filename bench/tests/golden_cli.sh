@@ -136,7 +136,10 @@ refused 'inflated distances or times, expected none' bench --instances bodies --
 mkdir stray && cp warehouse/0.xml warehouse/1.xml stray/ && cp warehouse/1.xml stray/7.xml
 "$sipplab" plan --instance warehouse/0.xml --format xml -o stray/0_log.xml >/dev/null
 head -c 700 warehouse/2.xml >stray/9.xml
+echo '<graphml><graph/></graphml>' >stray/roadmap.xml
 expect 0 bench --instances stray --db stray.db
+says '^stray/roadmap.xml: XML of another kind, expected' err
+rm stray/roadmap.xml
 says '^stray/0_log.xml: a solution, expected an instance; left out$' err
 says 'stray/7.xml: the same instance as .*stray/1.xml$' err
 says '^stray/9.xml:[0-9]+: ' err

@@ -216,7 +216,7 @@ bool holds_agents(xml_node map) { return map.child("agents") || map.child("start
 
 std::string xml_without_robots(std::string_view text, const std::string& file_name) {
   const Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
-  if (!parsed) return "";
+  if (!parsed) return parsed.error().expected == kRootTag ? "XML of another kind" : "";
   const xml_node root = (*parsed)->root();
   if (root.child("log")) return "a solution";
   return root.child("agents") || holds_agents(root.child("map")) ? "" : "XML without agents";

@@ -82,7 +82,7 @@ Input<std::unique_ptr<XmlReader>> XmlReader::parse(std::string_view text, const 
   if (!reader->root_) return error_at(text.size(), "no element", "<root>");
   if (std::string_view(reader->root_.name()) != "root") {
     return error_at(static_cast<std::size_t>(reader->root_.offset_debug()),
-                    "root element " + tag(reader->root_), "<root>");
+                    "root element " + tag(reader->root_), kRootTag);
   }
   return reader;
 }

@@ -27,6 +27,9 @@ struct NumberRange {
   }
 };
 
+/// What every file of the format has around it.
+inline constexpr const char* kRootTag = "<root>";
+
 /// The functions that read a value return a harmless one where it is bad and keep
 /// the complaint; the first complaint is the one that counts. So a reader can go
 /// straight on and look at error() from time to time.
