@@ -91,14 +91,13 @@ Result<std::int64_t> insert_row(sqlite::Connection& connection, const std::strin
                                 std::string_view doing, const Each& each) {
   std::string places;
   each([&places](std::string_view, const auto&) { places += places.empty() ? "?" : ", ?"; });
-  auto insert = sqlite::Statement::prepare(
-      connection, "INSERT INTO " + table + " (" + column_names(each) + ") VALUES (" + places + ")", doing);
-  if (!insert) return Unexpected{insert.error()};
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, "INSERT INTO " + table + " (" + column_names(each) + ") VALUES (" + places + ")", doing));
   int index = 0;
   each([&insert, &index](std::string_view, const auto& value) {
-    insert->bind_at(++index, detail::to_sql(value));
+    insert.bind_at(++index, detail::to_sql(value));
   });
-  if (auto done = insert->run(); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(insert.run());
   return connection.last_insert_rowid();
 }
 

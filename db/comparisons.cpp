@@ -39,32 +39,29 @@ Error not_found(const Database& database, std::string_view text) {
 
 /// Keys of the runs that `where` (with one parameter) leaves, oldest first.
 Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where, const std::string& value) {
-  auto select =
-      Statement::prepare(database.connection(),
+  return SIPPLAB_TRY(Statement::prepare(
+                         database.connection(),
                          fmt::format("SELECT run.id FROM run JOIN build ON build.id = run.build_id "
                                      "LEFT JOIN commit_ ON commit_.id = run.commit_id "
                                      "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL "
                                      "AND {} ORDER BY run.started_utc, run.id",
                                      where),
-                         kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(value);
-  return select->collect([](const Statement& row) { return row.integer(0); });
+                         kReadingRuns, value))
+      .collect([](const Statement& row) { return row.integer(0); });
 }
 
 /// Hashes of commits with runs that count, at most two: the beginning may fit several.
 Result<std::vector<std::string>> commits(Database& database, const char* where, const std::string& value) {
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format(
-          "SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
-          "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
-          "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
-          where),
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(value);
-  return select->collect([](const Statement& row) { return row.text(0); });
+  return SIPPLAB_TRY(
+             Statement::prepare(
+                 database.connection(),
+                 fmt::format("SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
+                             "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL AND {} "
+                             "GROUP BY commit_.id "
+                             "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
+                             where),
+                 kReadingRuns, value))
+      .collect([](const Statement& row) { return row.text(0); });
 }
 
 using Sides = std::vector<ComparisonSide>;
@@ -77,9 +74,8 @@ Result<Sides> as_run(Database& database, const std::string& text) {
     if (uuid.error().kind == ErrorKind::kNotFound) return Sides{};
     return Unexpected{uuid.error()};
   }
-  auto ids = run_ids(database, "run.uuid = ?", *uuid);
-  if (!ids) return Unexpected{ids.error()};
-  if (ids->empty()) {
+  auto ids = SIPPLAB_TRY(run_ids(database, "run.uuid = ?", *uuid));
+  if (ids.empty()) {
     const auto report = show_run(database, *uuid);
     if (report && !report->run.excluded_reason) return Sides{};  // of a kind without cases
     return Unexpected{Error{ErrorKind::kNotFound,
@@ -87,50 +83,45 @@ Result<Sides> as_run(Database& database, const std::string& text) {
                                         "--include` takes an exclusion back)",
                                         database.path().string(), uuid->substr(0, kShortHash))}};
   }
-  ComparisonSide side{"run " + uuid->substr(0, kShortHash), std::nullopt, std::move(*ids)};
-  const auto hashes = commits(database, "run.uuid = ?", *uuid);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (!hashes->empty()) {
-    side.commit_hash = hashes->front();
-    side.title += " of commit " + hashes->front().substr(0, kShortHash);
+  ComparisonSide side{"run " + uuid->substr(0, kShortHash), std::nullopt, std::move(ids)};
+  const auto hashes = SIPPLAB_TRY(commits(database, "run.uuid = ?", *uuid));
+  if (!hashes.empty()) {
+    side.commit_hash = hashes.front();
+    side.title += " of commit " + hashes.front().substr(0, kShortHash);
   }
   return Sides{std::move(side)};
 }
 
 /// The runs of builds of just this commit; if there is none, those with uncommitted changes.
 Result<Sides> of_commit(Database& database, const std::string& hash, const std::string& title) {
-  auto clean = run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash);
-  if (!clean) return Unexpected{clean.error()};
-  auto dirty = run_ids(database, "build.dirty = 1 AND commit_.hash = ?", hash);
-  if (!dirty) return Unexpected{dirty.error()};
-  if (clean->empty()) {
-    return Sides{{title + "+ (uncommitted changes) " + counted_runs(dirty->size()), hash, std::move(*dirty)}};
+  auto clean = SIPPLAB_TRY(run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash));
+  auto dirty = SIPPLAB_TRY(run_ids(database, "build.dirty = 1 AND commit_.hash = ?", hash));
+  if (clean.empty()) {
+    return Sides{{title + "+ (uncommitted changes) " + counted_runs(dirty.size()), hash, std::move(dirty)}};
   }
-  std::string name = title + " " + counted_runs(clean->size());
-  if (!dirty->empty()) name += fmt::format(" without {} of uncommitted changes", dirty->size());
-  return Sides{{std::move(name), hash, std::move(*clean)}};
+  std::string name = title + " " + counted_runs(clean.size());
+  if (!dirty.empty()) name += fmt::format(" without {} of uncommitted changes", dirty.size());
+  return Sides{{std::move(name), hash, std::move(clean)}};
 }
 
 Result<Sides> as_commit(Database& database, const std::string& text) {
   constexpr std::size_t kShortestPrefix = 4;
   if (text.size() < kShortestPrefix || !is_hexadecimal(text)) return Sides{};
-  const auto hashes = commits(database, "commit_.hash LIKE ? || '%'", text);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (hashes->empty()) return Sides{};
-  if (hashes->size() > 1) {
+  const auto hashes = SIPPLAB_TRY(commits(database, "commit_.hash LIKE ? || '%'", text));
+  if (hashes.empty()) return Sides{};
+  if (hashes.size() > 1) {
     return Unexpected{
         Error{ErrorKind::kBadInput, fmt::format("{}: {} fits more than one commit, expected more digits",
                                                 database.path().string(), text)}};
   }
-  return of_commit(database, hashes->front(), "commit " + hashes->front().substr(0, kShortHash));
+  return of_commit(database, hashes.front(), "commit " + hashes.front().substr(0, kShortHash));
 }
 
 Result<Sides> as_branch(Database& database, const std::string& text) {
-  const auto hashes = commits(database, "run.branch = ?", text);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (hashes->empty()) return Sides{};
-  return of_commit(database, hashes->front(),
-                   fmt::format("branch {} at {}", text, hashes->front().substr(0, kShortHash)));
+  const auto hashes = SIPPLAB_TRY(commits(database, "run.branch = ?", text));
+  if (hashes.empty()) return Sides{};
+  return of_commit(database, hashes.front(),
+                   fmt::format("branch {} at {}", text, hashes.front().substr(0, kShortHash)));
 }
 
 /// A cell of one side: the newest that finished the case.
@@ -142,21 +133,19 @@ struct CellKey {
 };
 
 Result<std::map<std::int64_t, CellKey>> newest_cells(Database& database, const ComparisonSide& side) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       "SELECT cell.case_id, cell.id, run.uuid, machine.fingerprint, build.binary_hash FROM cell "
       "JOIN run ON run.id = cell.run_id JOIN machine ON machine.id = run.machine_id "
       "JOIN build ON build.id = run.build_id WHERE cell.run_id = ?",
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
+      kReadingRuns));
   std::map<std::int64_t, CellKey> cells;
   for (const std::int64_t run : side.run_ids) {
-    select->bind(run);
-    const auto done = select->for_each([&] {
-      cells[select->integer(0)] = {select->integer(1), select->text(2), select->text(3), select->text(4)};
-    });
-    if (!done) return Unexpected{done.error()};
-    select->reset();
+    select.bind(run);
+    SIPPLAB_TRY(select.for_each([&] {
+      cells[select.integer(0)] = {select.integer(1), select.text(2), select.text(3), select.text(4)};
+    }));
+    select.reset();
   }
   return cells;
 }
@@ -187,7 +176,7 @@ Result<std::int64_t> result_count(Database& database, std::int64_t cell) {
 }
 
 Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head, PairedCell& cell) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       fmt::format("SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
                   "FROM result AS base JOIN result AS head ON head.cell_id = ?2 "
@@ -196,27 +185,22 @@ Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head
                   "JOIN instance ON instance.id = base.instance_id "
                   "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
                   fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(base, head);
+      kReadingRuns, base, head));
   constexpr int kBaseColumn = 4;
   constexpr int kHeadColumn = 14;
   for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) break;
-    PairedResult pair{select->text(0), select->text(1), read_result(*select, kBaseColumn),
-                      read_result(*select, kHeadColumn)};
-    pair.base.position = pair.head.position = select->integer(2);
-    pair.base.repetition = pair.head.repetition = select->integer(3);
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) break;
+    PairedResult pair{select.text(0), select.text(1), read_result(select, kBaseColumn),
+                      read_result(select, kHeadColumn)};
+    pair.base.position = pair.head.position = select.integer(2);
+    pair.base.repetition = pair.head.repetition = select.integer(3);
     cell.results.push_back(std::move(pair));
   }
-  const auto base_count = result_count(database, base);
-  if (!base_count) return Unexpected{base_count.error()};
-  const auto head_count = result_count(database, head);
-  if (!head_count) return Unexpected{head_count.error()};
-  cell.base_only = static_cast<std::size_t>(*base_count) - cell.results.size();
-  cell.head_only = static_cast<std::size_t>(*head_count) - cell.results.size();
+  const auto base_count = SIPPLAB_TRY(result_count(database, base));
+  const auto head_count = SIPPLAB_TRY(result_count(database, head));
+  cell.base_only = static_cast<std::size_t>(base_count) - cell.results.size();
+  cell.head_only = static_cast<std::size_t>(head_count) - cell.results.size();
   return Done{};
 }
 
@@ -235,9 +219,8 @@ Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
   for (const Reading& reading : kReadings) {
     if (said != std::end(kReadings) && said->prefix != reading.prefix) continue;
     const std::string_view name = said == std::end(kReadings) ? text : text.substr(said->prefix.size());
-    auto sides = reading.read(database, std::string(name));
-    if (!sides) return Unexpected{sides.error()};
-    found.insert(found.end(), sides->begin(), sides->end());
+    auto sides = SIPPLAB_TRY(reading.read(database, std::string(name)));
+    found.insert(found.end(), sides.begin(), sides.end());
   }
   if (found.empty()) return Unexpected{not_found(database, text)};
   if (found.size() > 1) {
@@ -250,28 +233,23 @@ Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
 
 Result<std::vector<PairedCell>> paired_cells(Database& database, const ComparisonSide& base,
                                              const ComparisonSide& head) {
-  const auto base_cells = newest_cells(database, base);
-  if (!base_cells) return Unexpected{base_cells.error()};
-  const auto head_cells = newest_cells(database, head);
-  if (!head_cells) return Unexpected{head_cells.error()};
-  auto select = Statement::prepare(database.connection(), "SELECT * FROM case_ WHERE id = ?", kReadingRuns);
-  if (!select) return Unexpected{select.error()};
+  const auto base_cells = SIPPLAB_TRY(newest_cells(database, base));
+  const auto head_cells = SIPPLAB_TRY(newest_cells(database, head));
+  auto select = SIPPLAB_TRY(
+      Statement::prepare(database.connection(), "SELECT * FROM case_ WHERE id = ?", kReadingRuns));
   std::vector<PairedCell> cells;
-  for (const auto& [case_key, base_cell] : *base_cells) {
-    const auto head_cell = head_cells->find(case_key);
-    if (head_cell == head_cells->end()) continue;
-    const auto row = select->bind(case_key).step();
-    if (!row) return Unexpected{row.error()};
+  for (const auto& [case_key, base_cell] : base_cells) {
+    const auto head_cell = head_cells.find(case_key);
+    if (head_cell == head_cells.end()) continue;
+    SIPPLAB_TRY(select.bind(case_key).step());
     PairedCell cell;
-    cell.parameters = read_case(*select, 0);
-    select->reset();
+    cell.parameters = read_case(select, 0);
+    select.reset();
     cell.base_run = base_cell.run;
     cell.head_run = head_cell->second.run;
     cell.same_machine = base_cell.machine == head_cell->second.machine;
     cell.same_program = base_cell.program == head_cell->second.program && !base_cell.program.empty();
-    if (auto done = read_pairs(database, base_cell.cell, head_cell->second.cell, cell); !done) {
-      return Unexpected{done.error()};
-    }
+    SIPPLAB_TRY(read_pairs(database, base_cell.cell, head_cell->second.cell, cell));
     cells.push_back(std::move(cell));
   }
   std::stable_sort(cells.begin(), cells.end(), [](const PairedCell& a, const PairedCell& b) {

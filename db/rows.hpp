@@ -30,7 +30,7 @@ void bind_value(sqlite::Statement& statement, int index, const Value& value);
 /// The value of a column in the current row.
 Value value_of(sqlite3_stmt* row, int column);
 /// All rows that are left, under the names of their columns.
-Result<Table> rest_of(sqlite::Statement& statement);
+Result<Table> rest_of(sqlite::Statement statement);
 
 /// The key of the row, which is written if it is missing. To be called within a
 /// write transaction.

@@ -146,19 +146,18 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
   int parameter = kPlainParameters;
   for (const auto& [column, value] : filter.options) sql += fmt::format(" AND {} = ?{}", column, ++parameter);
   sql += " ORDER BY environment, planner, initial_order, reschedule, ssi_s, robots, id";
-  auto select = Statement::prepare(database.connection(), sql, kReadingTrend);
-  if (!select) return Unexpected{select.error()};
-  select->bind(filter.id, filter.environment, filter.robots, filter.map, filter.planner);
+  auto select =
+      SIPPLAB_TRY(Statement::prepare(database.connection(), sql, kReadingTrend, filter.id, filter.environment,
+                                     filter.robots, filter.map, filter.planner));
   parameter = kPlainParameters;
-  for (const auto& [column, value] : filter.options) bind_value(*select, ++parameter, value);
+  for (const auto& [column, value] : filter.options) bind_value(select, ++parameter, value);
   std::vector<CaseName> cases;
   for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) break;
-    CaseName named{select->integer(0), select->text(1), {}};
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) break;
+    CaseName named{select.integer(0), select.text(1), {}};
     for (std::size_t i = 0; i < named.details.size(); ++i) {
-      named.details[i] = select->text(static_cast<int>(i) + 2);
+      named.details[i] = select.text(static_cast<int>(i) + 2);
     }
     cases.push_back(std::move(named));
   }
@@ -180,10 +179,9 @@ using SamplesByKey = std::map<SeriesKey, std::vector<Sample>>;
 /// Rows of `select`: the context, the keys of the instances, then a sample.
 Result<SamplesByKey> read_samples(Statement& select) {
   SamplesByKey samples;
-  const auto done = select.for_each([&] {
+  SIPPLAB_TRY(select.for_each([&] {
     samples[{select.text(0), select.text(1)}].push_back(read_sample(select, 2));
-  });
-  if (!done) return Unexpected{done.error()};
+  }));
   return samples;
 }
 
@@ -225,18 +223,15 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
 }
 
 Result<std::vector<TrendSeries>> read_case_trends(Database& database, const TrendQuery& query) {
-  const auto cases = find_cases(database, query.cases);
-  if (!cases) return Unexpected{cases.error()};
-  auto select = prepare_case_trend(database, *query.metric);
-  if (!select) return Unexpected{select.error()};
+  const auto cases = SIPPLAB_TRY(find_cases(database, query.cases));
+  auto select = SIPPLAB_TRY(prepare_case_trend(database, *query.metric));
   std::vector<TrendSeries> series;
-  for (const CaseName& named : *cases) {
-    select->bind(query.metric->name, named.id, query.suite, query.branch, query.machine);
-    auto samples = read_samples(*select);
-    if (!samples) return Unexpected{samples.error()};
-    select->reset();
-    std::map<std::string, std::string> names = set_names(*samples);
-    for (auto& [key, values] : *samples) {
+  for (const CaseName& named : cases) {
+    select.bind(query.metric->name, named.id, query.suite, query.branch, query.machine);
+    auto samples = SIPPLAB_TRY(read_samples(select));
+    select.reset();
+    std::map<std::string, std::string> names = set_names(samples);
+    for (auto& [key, values] : samples) {
       series.push_back(
           {named.id, named.label, names[key.instances], key.context, points_of(std::move(values)), {}});
     }
@@ -286,15 +281,13 @@ std::string commit_source(const TrendMetric& metric) {
 }
 
 Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, commit_source(*query.metric)),
-      kReadingTrend);
-  if (!select) return Unexpected{select.error()};
-  auto samples = read_samples(*select);
-  if (!samples) return Unexpected{samples.error()};
+      kReadingTrend));
+  auto samples = SIPPLAB_TRY(read_samples(select));
   std::vector<TrendSeries> series;
-  for (auto& [key, values] : *samples) {
+  for (auto& [key, values] : samples) {
     series.push_back({0, key.context, "", "", points_of(std::move(values)), {}});
   }
   return series;
