@@ -87,8 +87,7 @@ Result<std::vector<TableShape>> tables_of(Connection& connection) {
               1));
   std::vector<TableShape> waiting;
   for (const auto& name : names) {
-    auto shape = SIPPLAB_TRY(shape_of(connection, name[0]));
-    waiting.push_back(std::move(shape));
+    waiting.push_back(SIPPLAB_TRY(shape_of(connection, name[0])));
   }
   std::vector<TableShape> ordered;
   std::set<std::string> placed;

@@ -33,7 +33,7 @@ RunSummary read_run(const Statement& row) {
 
 CellSummary read_cell(const Statement& row) {
   CellSummary cell;
-  read_row(row, [&cell](auto visit) { CellSummary::columns(cell, visit); });
+  read_row(row, [&cell](auto visit) { CellSummary::measures(cell, visit); });
   cell.parameters = read_case(row, row.column("id"));
   return cell;
 }
@@ -125,8 +125,7 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
         database.connection(),
         fmt::format("SELECT uuid FROM run WHERE uuid LIKE ? || '%' AND {} ORDER BY uuid LIMIT 2", kinds),
         kListing, text));
-    auto uuids = SIPPLAB_TRY(select.collect([](const Statement& row) { return row.text(0); }));
-    found = std::move(uuids);
+    found = SIPPLAB_TRY(select.collect([](const Statement& row) { return row.text(0); }));
     if (!found.empty()) break;
   }
   if (found.empty()) {

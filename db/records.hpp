@@ -93,10 +93,27 @@ struct CaseInfo {
   /// Of the planner, by column: an integer (1 for yes), a real or a text.
   std::map<std::string, Value, std::less<>> options;
 
-  /// REQUIRES: there is such a column, with a value of this kind.
-  const Value& option(std::string_view column) const { return options.find(column)->second; }
+  /// NULL if there is no such column.
+  const Value& option(std::string_view column) const {
+    static const Value kNone = Null{};
+    const auto found = options.find(column);
+    return found == options.end() ? kNone : found->second;
+  }
+  /// REQUIRES of both: there is such a column, with a value of this kind.
   double real(std::string_view column) const { return std::get<double>(option(column)); }
   const std::string& text(std::string_view column) const { return std::get<std::string>(option(column)); }
+
+  /// Those that are no option.
+  template <class Self, class Visit>
+  static void columns(Self& self, Visit&& visit) {
+    visit("environment", self.environment);
+    visit("map_spec", self.map_spec);
+    visit("instance_set", self.instance_set);
+    visit("robots", self.robots);
+    visit("planner", self.planner);
+    visit("radius_cells", self.radius_cells);
+    visit("speed_cells_per_s", self.speed_cells_per_s);
+  }
 
   friend bool operator==(const CaseInfo&, const CaseInfo&) = default;
 };

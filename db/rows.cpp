@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <set>
 #include <type_traits>
 #include <variant>
 
@@ -71,7 +72,7 @@ std::int64_t to_count(std::uint64_t value) {
 
 std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-void bind_value(sqlite::Statement& statement, int index, const Value& value) {
+void detail::bind(sqlite::Statement& statement, int index, const Value& value) {
   const auto bind = [&statement, index](const auto& bound) {
     using Bound = std::decay_t<decltype(bound)>;
     if constexpr (std::is_same_v<Bound, Null> || std::is_same_v<Bound, Blob>) {
@@ -151,23 +152,14 @@ Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, c
 }
 
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
-  std::string columns, marks;
-  for (const auto& [column, value] : parameters.options) {
-    columns += ", " + column;
-    marks += ", ?";
-  }
-  auto statement = SIPPLAB_TRY(sqlite::Statement::prepare(
-      connection,
-      fmt::format("INSERT INTO case_ (environment, map_spec, instance_set, robots, planner, radius_cells, "
-                  "speed_cells_per_s{}) VALUES (?, ?, ?, ?, ?, ?, ?{}) "
-                  "ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
-                  columns, marks),
-      "writing a case", parameters.environment, parameters.map_spec, parameters.instance_set,
-      parameters.robots, parameters.planner, parameters.radius_cells, parameters.speed_cells_per_s));
-  constexpr int kPlainColumns = 7;
-  int index = kPlainColumns;
-  for (const auto& [column, value] : parameters.options) bind_value(statement, ++index, value);
-  return key_of(statement);
+  const auto each = [&parameters](const auto& visit) {
+    CaseInfo::columns(parameters, visit);
+    for (const auto& [column, value] : parameters.options) visit(column, value);
+  };
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, insert_sql("case_", each) + " ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
+      "writing a case"));
+  return key_of(bind_row(insert, each));
 }
 
 Result<InstanceKeys> InstanceKeys::prepare(sqlite::Connection& connection) {
@@ -195,26 +187,16 @@ Result<std::int64_t> InstanceKeys::key(const InstanceInfo& instance) {
 
 CaseInfo read_case(const sqlite::Statement& row, int column) {
   CaseInfo parameters;
-  const int count = sqlite3_column_count(row.raw());
-  for (; column < count; ++column) {
+  std::set<std::string_view> plain{"id"};
+  read_row(row, [&](const auto& visit) {
+    CaseInfo::columns(parameters, [&](std::string_view name, auto& value) {
+      plain.insert(name);
+      visit(name, value);
+    });
+  });
+  for (; column < sqlite3_column_count(row.raw()); ++column) {
     const std::string name = sqlite3_column_name(row.raw(), column);
-    if (name == "environment") {
-      parameters.environment = row.text(column);
-    } else if (name == "map_spec") {
-      parameters.map_spec = row.text(column);
-    } else if (name == "instance_set") {
-      parameters.instance_set = row.text(column);
-    } else if (name == "robots") {
-      parameters.robots = row.integer(column);
-    } else if (name == "planner") {
-      parameters.planner = row.text(column);
-    } else if (name == "radius_cells") {
-      parameters.radius_cells = row.real(column);
-    } else if (name == "speed_cells_per_s") {
-      parameters.speed_cells_per_s = row.real(column);
-    } else if (name != "id") {
-      parameters.options[name] = value_of(row.raw(), column);
-    }
+    if (!plain.contains(name)) parameters.options[name] = value_of(row.raw(), column);
   }
   return parameters;
 }

@@ -25,8 +25,6 @@ std::int64_t to_bits(std::uint64_t value);
 inline std::int64_t sql_limit(std::size_t limit) {
   return limit == 0 ? -1 : static_cast<std::int64_t>(limit);
 }
-/// A number or a text; of a blob, which no parameter has, NULL.
-void bind_value(sqlite::Statement& statement, int index, const Value& value);
 /// The value of a column in the current row.
 Value value_of(sqlite3_stmt* row, int column);
 /// All rows that are left, under the names of their columns.
@@ -93,7 +91,7 @@ class InstanceKeys {
   sqlite::Statement insert_;
 };
 
-/// From `column` on, the columns of case_ by their names: SELECT ..., case_.*.
+/// The columns of case_ by their names, the options from `column` on: SELECT ..., case_.*.
 CaseInfo read_case(const sqlite::Statement& row, int column);
 
 }  // namespace sipplab::db

@@ -150,7 +150,7 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
       SIPPLAB_TRY(Statement::prepare(database.connection(), sql, kReadingTrend, filter.id, filter.environment,
                                      filter.robots, filter.map, filter.planner));
   parameter = kPlainParameters;
-  for (const auto& [column, value] : filter.options) bind_value(select, ++parameter, value);
+  for (const auto& [column, value] : filter.options) detail::bind(select, ++parameter, value);
   std::vector<CaseName> cases;
   for (;;) {
     const auto row = SIPPLAB_TRY(select.step());

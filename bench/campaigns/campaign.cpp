@@ -14,6 +14,7 @@
 #include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"
+#include "planner/core/try.hpp"
 #include "planner/io/text_file.hpp"
 
 namespace sipplab::bench {
@@ -76,9 +77,8 @@ class TargetRun {
     const auto inputs = take_artifacts();
     const bool was_stopped = run_.timeouts > 0;  // by an input that is not slow: the engine ends there
     if (inputs.empty() && !ended_well_ && !was_stopped) run_.status = "broken";
-    const auto id = db::record_fuzz_run(database_, origin_, run_);
-    if (!id) return Unexpected{id.error()};
-    return record_findings(inputs, *id);
+    const auto id = SIPPLAB_TRY(db::record_fuzz_run(database_, origin_, run_));
+    return record_findings(inputs, id);
   }
 
   const db::FuzzRun& row() const { return run_; }
@@ -218,9 +218,7 @@ class TargetRun {
     std::vector<db::StoredFinding> findings;
     for (const auto& [signature, found] : distinct) {
       const db::Finding finding = finding_of(program_, run_.target, found.first, found.second);
-      const auto stored = db::record_finding(database_, origin_, finding, run_id, db::utc_now());
-      if (!stored) return Unexpected{stored.error()};
-      findings.push_back(*stored);
+      findings.push_back(SIPPLAB_TRY(db::record_finding(database_, origin_, finding, run_id, db::utc_now())));
     }
     return findings;
   }
@@ -274,9 +272,8 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
   for (const std::string& target : options.targets.empty() ? targets_of(options) : options.targets) {
     TargetRun run(database, origin, options, result.campaign, target);
     if (options.skip_known) {
-      const auto known = run.is_known();
-      if (!known) return Unexpected{known.error()};
-      if (*known) {
+      const auto known = SIPPLAB_TRY(run.is_known());
+      if (known) {
         result.skipped.push_back(target);
         continue;
       }
@@ -286,8 +283,7 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
   for (TargetRun& run : runs) {
     std::optional<double> share;
     if (options.seconds) share = *options.seconds / static_cast<double>(runs.size());
-    const auto findings = run.run(share);
-    if (!findings) return Unexpected{findings.error()};
+    const auto findings = SIPPLAB_TRY(run.run(share));
     const db::FuzzRun& row = run.row();
     const double wall_time_s = static_cast<double>(row.wall_time_ns) / 1e9;
     tell(fmt::format("{}: {}, {} executions in {:.1f} s, {:.0f} a second, {} edges, {} inputs kept",
@@ -298,8 +294,8 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
       result.broken = true;
       tell(fmt::format("  it did not run as it should; what it said: {}", run.log().string()));
     }
-    for (const db::StoredFinding& stored : *findings) write_finding(options, stored, tell);
-    result.findings.insert(result.findings.end(), findings->begin(), findings->end());
+    for (const db::StoredFinding& stored : findings) write_finding(options, stored, tell);
+    result.findings.insert(result.findings.end(), findings.begin(), findings.end());
   }
   return result;
 }

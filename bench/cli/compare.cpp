@@ -26,17 +26,13 @@ struct CompareArguments {
 };
 
 int run_compare(const CompareArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
-  const auto base = db::resolve_side(*database, arguments.base);
-  if (!base) return fail(base.error());
-  const auto head = db::resolve_side(*database, arguments.head);
-  if (!head) return fail(head.error());
-  auto cells = db::paired_cells(*database, *base, *head);
-  if (!cells) return fail(cells.error());
-  bench::Judgement judgement = bench::measured(std::move(*cells));
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.database));
+  const auto base = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.base));
+  const auto head = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.head));
+  auto cells = SIPPLAB_TRY_OR(fail, db::paired_cells(database, base, head));
+  bench::Judgement judgement = bench::measured(std::move(cells));
   if (judgement.all.compared == 0) {
-    return fail(kNothingComparable, "sipplab: " + base->title + " and " + head->title +
+    return fail(kNothingComparable, "sipplab: " + base.title + " and " + head.title +
                                         " share no case and instance, expected runs of one suite");
   }
   bench::JudgeOptions options;
@@ -46,8 +42,8 @@ int run_compare(const CompareArguments& arguments) {
     return {{"title", named.title},
             {"commit", named.commit_hash ? nlohmann::ordered_json(*named.commit_hash) : nullptr}};
   };
-  bench::Report report{judgement, "sipplab compare", base->title, head->title};
-  report.details = {{"base", side(*base)}, {"head", side(*head)}};
+  bench::Report report{judgement, "sipplab compare", base.title, head.title};
+  report.details = {{"base", side(base)}, {"head", side(head)}};
   report.all_findings = "--list";
   if (arguments.list) report.listed = std::numeric_limits<std::size_t>::max();
   return print_report(report, arguments.report);

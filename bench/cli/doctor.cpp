@@ -12,6 +12,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "db/database.hpp"
 #include "db/doctor.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -35,7 +36,7 @@ std::string json_text(const db::DoctorReport& report, const std::string& file) {
                                     {"fixable", finding.fixable},
                                     {"fixed", finding.fixed}});
   }
-  return document.dump(2) + "\n";
+  return db::json_text(document);
 }
 
 std::string plain_text(const db::DoctorReport& report, const std::string& file) {

@@ -63,7 +63,7 @@ int failed_comparison(const std::string& line) {
   if (bench::interrupted_by() != 0) {
     return fail(kSignalExitBase + bench::interrupted_by(), "sipplab: stopped before a verdict");
   }
-  return fail(kBadUsage, "sipplab: " + line);
+  return bad_usage(line);
 }
 
 void warn_of_unfit_builds(const bench::GateResult& result) {
@@ -85,14 +85,9 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
       live.show(fmt::format("comparison {} of {}: {}", number + 1, arguments.comparisons, what));
     };
     request.seed = arguments.request.seed + number;
-    auto result = bench::compare_builds(request, cases, noise, progress);
-    if (!result) return failed_comparison(result.error());
-    const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, true));
-    if (!recorded) return fail(recorded.error());
-    auto measured = db::gate_noise(database, bench::gate_kind(request));
-    if (!measured) return fail(measured.error());
-    noise = std::move(*measured);
-    last = std::move(*result);
+    last = SIPPLAB_TRY_OR(failed_comparison, bench::compare_builds(request, cases, noise, progress));
+    SIPPLAB_TRY_OR(fail, db::record_gate_run(database, bench::gate_record(request, cases, *last, true)));
+    noise = SIPPLAB_TRY_OR(fail, db::gate_noise(database, bench::gate_kind(request)));
   }
   live.show("");
   bench::update_noise(request, cases, noise, *last);
@@ -104,13 +99,12 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
 
 int run_comparison(const GateArguments& arguments, const bench::GateCases& cases, db::Database& database) {
   const bench::GateRequest& request = arguments.request;
-  const auto noise = db::gate_noise(database, bench::gate_kind(request));
-  if (!noise) return fail(noise.error());
+  const auto noise = SIPPLAB_TRY_OR(fail, db::gate_noise(database, bench::gate_kind(request)));
   Expected<bench::GateResult, std::string> result = Unexpected{std::string()};
   {
     LiveLine live;
     result =
-        bench::compare_builds(request, cases, *noise, [&live](const std::string& what) { live.show(what); });
+        bench::compare_builds(request, cases, noise, [&live](const std::string& what) { live.show(what); });
   }
   if (!result) return failed_comparison(result.error());
   // What took so long to find out is said, even where the history does not take it.
@@ -130,21 +124,18 @@ int run_gate(const GateArguments& given) {
   if (arguments.calibrate) {
     if (arguments.base.empty()) arguments.base = kThisProgram;
     if (!arguments.head.empty()) {
-      return fail(kBadUsage, "sipplab: --calibrate runs one build against itself, expected no --head");
+      return bad_usage("--calibrate runs one build against itself, expected no --head");
     }
     if (arguments.report.junit || arguments.report.format == "markdown") {
-      return fail(kBadUsage,
-                  "sipplab: --calibrate has no verdict, expected --format text or json and no --junit");
+      return bad_usage("--calibrate has no verdict, expected --format text or json and no --junit");
     }
     arguments.head = arguments.base;
   }
   if (arguments.base.empty() || arguments.head.empty()) {
-    return fail(kBadUsage, "sipplab: expected --base BUILD and --head BUILD, or --calibrate");
+    return bad_usage("expected --base BUILD and --head BUILD, or --calibrate");
   }
   for (std::string* build : {&arguments.base, &arguments.head}) {
-    auto program = bench::find_program(*build);
-    if (!program) return fail(kBadUsage, "sipplab: " + program.error());
-    *build = std::move(*program);
+    *build = SIPPLAB_TRY_OR(bad_usage, bench::find_program(*build));
   }
   arguments.request.builds = {arguments.base, arguments.head, {}};
   for (const char* variable : {bench::kSlowdownVariable, bench::kChangeVariable}) {
@@ -152,13 +143,12 @@ int run_gate(const GateArguments& given) {
     if (value == nullptr || arguments.calibrate) continue;
     arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
   }
-  const auto cases = bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only);
-  if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
-  auto database = db::Database::open(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
+  const auto cases = SIPPLAB_TRY_OR(
+      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only));
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   bench::catch_interrupts();
-  return arguments.calibrate ? run_calibration(arguments, *cases, *database)
-                             : run_comparison(arguments, *cases, *database);
+  return arguments.calibrate ? run_calibration(arguments, cases, database)
+                             : run_comparison(arguments, cases, database);
 }
 
 /// Empty for a suite that can be timed, else what was expected.

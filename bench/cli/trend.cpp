@@ -11,6 +11,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/present/trend_text.hpp"
 #include "db/database.hpp"
+#include "db/json_text.hpp"
 #include "db/trends.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
@@ -37,35 +38,32 @@ struct TrendArguments {
 int run_trend(const TrendArguments& arguments) {
   db::TrendQuery query;
   query.metric = db::find_trend_metric(arguments.metric);
-  const auto filter = parse_case_filter(arguments.cases);
-  if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
+  const auto filter = SIPPLAB_TRY_OR(bad_usage, parse_case_filter(arguments.cases));
   if (!query.metric->of_case &&
       (!arguments.cases.empty() || arguments.suite || arguments.branch || arguments.machine)) {
-    return fail(kBadUsage, "sipplab: " + arguments.metric +
-                               " is not of a case: expected no --case, --suite, --branch or --machine");
+    return bad_usage(arguments.metric +
+                     " is not of a case: expected no --case, --suite, --branch or --machine");
   }
-  query.cases = *filter;
+  query.cases = filter;
   query.suite = arguments.suite;
   query.branch = arguments.branch;
   query.machine = arguments.machine;
-  auto database = db::Database::open_read_only(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
-  auto series = db::read_trend(*database, query);
-  if (!series) return fail(series.error());
-  if (series->empty()) {
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.database));
+  auto series = SIPPLAB_TRY_OR(fail, db::read_trend(database, query));
+  if (series.empty()) {
     const char* expected = query.metric->of_case
                                ? " of such a case, suite, branch and machine; `sipplab sql 'SELECT DISTINCT "
                                  "case_id, environment, robots, ssi_s FROM v_run_cells'` lists cases"
                                : " of any commit, expected runs that were recorded in a git checkout";
-    return fail(kNothingComparable, database->path().string() + ": no " + arguments.metric + expected);
+    return fail(kNothingComparable, database.path().string() + ": no " + arguments.metric + expected);
   }
-  db::mark_changes(*series, *query.metric, arguments.rules);
+  db::mark_changes(series, *query.metric, arguments.rules);
   if (arguments.svg) {
-    const std::string picture = bench::svg(bench::trend_chart(*query.metric, *series), bench::SvgUse::kFile);
-    if (const auto error = write_file(*arguments.svg, picture)) return fail(kBadUsage, error->message());
+    const std::string picture = bench::svg(bench::trend_chart(*query.metric, series), bench::SvgUse::kFile);
+    if (const auto error = write_file(*arguments.svg, picture)) return fail(error->message());
   }
-  print(arguments.json ? bench::trend_json(*query.metric, *series).dump(2) + "\n"
-                       : bench::trend_text(*query.metric, *series, arguments.rows));
+  print(arguments.json ? db::json_text(bench::trend_json(*query.metric, series))
+                       : bench::trend_text(*query.metric, series, arguments.rows));
   return kSuccess;
 }
 

@@ -8,6 +8,7 @@
 #include "bench/judge/junit.hpp"
 #include "bench/judge/replay_command.hpp"
 #include "bench/judge/text_table.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -246,7 +247,7 @@ std::string report_json(const Report& report) {
   for (const Difference& row : judgement.differences) {
     json["differences"].push_back(difference_json(judgement, row));
   }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return db::json_text(json);
 }
 
 std::string report_junit(const Report& report) {

@@ -172,8 +172,7 @@ void earliest_departure(benchmark::State& state) {
   std::size_t next = 0;
   for ([[maybe_unused]] auto iteration : state) {
     const Move& move = clear[next++ % clear.size()];
-    benchmark::DoNotOptimize(
-        crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
+    benchmark::DoNotOptimize(crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
   }
 }
 BENCHMARK(earliest_departure)->Name("reservation/earliest_departure");

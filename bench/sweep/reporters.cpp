@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "db/aligned.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -127,7 +128,7 @@ std::string result_json(const std::vector<SweepEntry>& entries, const std::strin
   json["database"] = database;
   json["status"] = finished ? "finished" : "aborted";
   json["cases"] = std::move(cases);
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return db::json_text(json);
 }
 
 }  // namespace sipplab::bench

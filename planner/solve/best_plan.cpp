@@ -164,17 +164,8 @@ class BestPlan {
 }  // namespace
 
 std::string_view name(BestStep::Kind kind) {
-  switch (kind) {
-    case BestStep::Kind::kMethod:
-      return "method";
-    case BestStep::Kind::kEscalation:
-      return "escalation";
-    case BestStep::Kind::kEjection:
-      return "ejection";
-    case BestStep::Kind::kFallback:
-      return "fallback";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"method", "escalation", "ejection", "fallback"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 SolveResult best_plan(const Instance& instance, const PlannerOptions& options) {

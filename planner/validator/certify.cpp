@@ -216,15 +216,8 @@ PairVerdict certify_lives(const Life& a, const Life& b) {
 }  // namespace
 
 std::string_view name(PairCertificate certificate) {
-  switch (certificate) {
-    case PairCertificate::kSafe:
-      return "safe";
-    case PairCertificate::kCollision:
-      return "collision";
-    case PairCertificate::kUndecided:
-      return "undecided";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"safe", "collision", "undecided"};
+  return kNames[static_cast<std::size_t>(certificate)];
 }
 
 PairVerdict certify_pair(const Trajectory& a, double radius_a_cells, const Trajectory& b,

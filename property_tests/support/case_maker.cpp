@@ -178,21 +178,9 @@ PlannerOptions draw_options(Random& random) {
 }  // namespace
 
 std::string_view name(CaseFamily family) {
-  switch (family) {
-    case CaseFamily::kScattered:
-      return "scattered";
-    case CaseFamily::kDense:
-      return "dense";
-    case CaseFamily::kCorridor:
-      return "corridor";
-    case CaseFamily::kContactStarts:
-      return "contact starts";
-    case CaseFamily::kConvoy:
-      return "convoy";
-    case CaseFamily::kMixedBodies:
-      return "mixed bodies";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"scattered",      "dense",  "corridor",
+                                         "contact starts", "convoy", "mixed bodies"};
+  return kNames[static_cast<std::size_t>(family)];
 }
 
 PlanCase make_case(CaseFamily family, int size, std::uint64_t seed) {
