@@ -90,7 +90,8 @@ struct CaseInfo {
   std::string planner;
   double radius_cells = 0.5;     ///< 0: mixed, as each instance says
   double speed_cells_per_s = 1;  ///< 0: mixed, as each instance says
-  /// Of the planner, by column: an integer (1 for yes), a real or a text.
+  /// Of the planner, by column: an integer (1 for yes), a finite real or a text. One that has no column in
+  /// the schema is here only if it differs from its default.
   std::map<std::string, Value, std::less<>> options;
 
   /// NULL if there is no such column.

@@ -5,7 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <set>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 #include <variant>
 
@@ -151,10 +151,31 @@ Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, c
   return std::optional<std::int64_t>{connection.last_insert_rowid()};
 }
 
+Result<std::set<std::string>> case_columns(sqlite::Connection& connection) {
+  auto select = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, "SELECT name FROM pragma_table_info('case_')", "reading the columns of cases"));
+  std::set<std::string> columns;
+  SIPPLAB_TRY(select.for_each([&] { columns.insert(select.text(0)); }));
+  return columns;
+}
+
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
-  const auto each = [&parameters](const auto& visit) {
+  const auto columns = SIPPLAB_TRY(case_columns(connection));
+  nlohmann::json others = nlohmann::json::object();
+  for (const auto& [name, value] : parameters.options) {
+    if (columns.contains(name)) continue;
+    std::visit(
+        [&json = others[name]](const auto& kept) {
+          if constexpr (std::is_constructible_v<nlohmann::json, decltype(kept)>) json = kept;
+        },
+        value);
+  }
+  const auto each = [&](const auto& visit) {
     CaseInfo::columns(parameters, visit);
-    for (const auto& [column, value] : parameters.options) visit(column, value);
+    for (const auto& [name, value] : parameters.options) {
+      if (columns.contains(name)) visit(name, value);
+    }
+    visit("options", others.dump());
   };
   auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
       connection, insert_sql("case_", each) + " ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
@@ -187,7 +208,7 @@ Result<std::int64_t> InstanceKeys::key(const InstanceInfo& instance) {
 
 CaseInfo read_case(const sqlite::Statement& row, int column) {
   CaseInfo parameters;
-  std::set<std::string_view> plain{"id"};
+  std::set<std::string_view> plain{"id", "options"};
   read_row(row, [&](const auto& visit) {
     CaseInfo::columns(parameters, [&](std::string_view name, auto& value) {
       plain.insert(name);
@@ -197,6 +218,14 @@ CaseInfo read_case(const sqlite::Statement& row, int column) {
   for (; column < sqlite3_column_count(row.raw()); ++column) {
     const std::string name = sqlite3_column_name(row.raw(), column);
     if (!plain.contains(name)) parameters.options[name] = value_of(row.raw(), column);
+    if (name != "options") continue;
+    const auto others = nlohmann::json::parse(row.text(column), nullptr, false);
+    for (const auto& [option, value] : others.items()) {
+      Value& kept = parameters.options[option];
+      if (value.is_number_integer()) kept = value.get<std::int64_t>();
+      if (value.is_number_float()) kept = value.get<double>();
+      if (value.is_string()) kept = value.get<std::string>();
+    }
   }
   return parameters;
 }

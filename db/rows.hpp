@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,8 @@ Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& b
 Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
                                               const std::optional<CommitInfo>& commit);
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters);
+/// The columns of case_; an option that has none is a member of the JSON object in `options`.
+Result<std::set<std::string>> case_columns(sqlite::Connection& connection);
 
 /// What all runs have, whatever their kind: the columns of the table run.
 struct RunRow {
@@ -70,7 +73,7 @@ RunRow finished_run(const char* kind, const std::string& suite, const std::strin
   return row;
 }
 
-/// Lists a run; gives its key. None where the history has one of that UUID: nothing is written then. To
+/// Lists a run; gives its key. None if the history has one of that UUID: nothing is written then. To
 /// be called within a write transaction, as the rows of its kind are.
 Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
                                                const RunRow& run);

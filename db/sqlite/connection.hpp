@@ -16,7 +16,7 @@ struct sqlite3;
 namespace sipplab::db::sqlite {
 
 /// Wall-clock time for which a lock is awaited. Writers hold it for milliseconds
-/// (one case), so a minute means that somebody forgot a transaction.
+/// (one case), so a minute means that a program forgot to end a transaction.
 inline constexpr std::chrono::seconds kBusyTimeout{60};
 
 enum class OpenMode {
