@@ -57,7 +57,7 @@ Command add_compare_command(CLI::App& program) {
       program.add_subcommand("compare", "compare two runs, commits or branches, instance by instance");
   command->footer(
       "A and B are `latest`, a run's UUID or a commit's hash (four digits or more of either), or a branch;\n"
-      "`run:`, `commit:` or `branch:` before it says which. Of a commit, the newest result of each case\n"
+      "`run:`, `commit:` or `branch:` before it says which. For a commit, the newest result of each case\n"
       "counts. Exit codes: 0 same, or changed and nothing worse; 1 regressed (fewer solved, invalid plans,\n"
       "longer flowtimes); 3 inconclusive (fewer solved, which may be chance); 4 nothing comparable.");
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();

@@ -51,7 +51,7 @@ int close_stdout(int code) {
 
 void diagnose(std::string_view line) {
   const std::string text = on_one_line(line) + "\n";
-  std::fflush(stdout);  // where both go to one file, lines keep their order
+  std::fflush(stdout);  // if both go to one file, lines keep their order
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

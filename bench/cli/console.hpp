@@ -29,7 +29,7 @@ void print(std::string_view text);
 void print_json(const nlohmann::ordered_json& json);
 
 /// Flushes stdout, standard streams included. Returns `code`, or kBadUsage with one
-/// line on stderr where the reader has gone or the disk is full.
+/// line on stderr if the reader has gone or the disk is full.
 int close_stdout(int code);
 
 /// One line on stderr as it is; line breaks in it become blanks.

@@ -1,4 +1,4 @@
-// sipplab doctor: whether the history is sound, and what to do where it is not.
+// sipplab doctor: whether the history is sound, and what to do if it is not.
 #include <fmt/format.h>
 
 #include <memory>
@@ -66,13 +66,12 @@ int run_doctor(const DoctorArguments& arguments) {
 
 Command add_doctor_command(CLI::App& program) {
   auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* command =
-      program.add_subcommand("doctor", "check the history, and say what to do about findings");
-  command->add_flag("--quick", arguments->options.quick, "leave out what reads every result");
-  command->add_flag("--fix", arguments->options.fix, "set right what can be without losing anything");
+  CLI::App* command = program.add_subcommand("doctor", "check the history and advise what to do");
+  command->add_flag("--quick", arguments->options.quick, "skip checks that read every result");
+  command->add_flag("--fix", arguments->options.fix, "fix what can be fixed without losing anything");
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");
-  command->footer("Ends with 0 for a sound history, 1 for findings.");
+  command->footer("Exit codes: 0 sound, 1 findings.");
   return {command, [arguments] { return run_doctor(*arguments); }};
 }
 

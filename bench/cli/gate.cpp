@@ -107,7 +107,7 @@ int run_comparison(const GateArguments& arguments, const bench::GateCases& cases
         bench::compare_builds(request, cases, noise, [&live](const std::string& what) { live.show(what); });
   }
   if (!result) return failed_comparison(result.error());
-  // What took so long to find out is said, even where the history does not take it.
+  // The result took long to measure: it is printed even if it cannot be recorded.
   const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, false));
   warn_of_unfit_builds(*result);
   const int code = print_report(bench::gate_report(request, *result, recorded ? *recorded : std::string()),
@@ -164,28 +164,28 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
       ->type_name("BUILD");
   command.add_option("--head", arguments.head, "build to judge")->type_name("BUILD");
   CLI::Option* calibrate = command.add_flag("--calibrate", arguments.calibrate,
-                                            "compare a build (--base, else this one) with itself and keep "
-                                            "what that says about this machine's noise");
-  command.add_option("--comparisons", arguments.comparisons, "of a calibration")
+                                            "compare a build (--base, else this one) with itself to measure "
+                                            "this machine's noise");
+  command.add_option("--comparisons", arguments.comparisons, "number of comparisons of a calibration")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000}))
       ->needs(calibrate)
       ->capture_default_str();
-  command.add_option("--suite", request.suite, "what is timed: gate, smoke, density")
+  command.add_option("--suite", request.suite, "suite to time: gate, smoke or density")
       ->check(check_suite)
       ->capture_default_str();
   command.add_flag("--allow-changes", request.allow_changes,
-                   "other plans are meant: judge only time, validity and how many are solved");
+                   "plans may change: judge only time, validity and the number solved");
   command
       .add_option("--tolerance", request.tolerance, "slowdown to rule out before two builds are equivalent")
       ->check(real_between(0.001, 10))
       ->capture_default_str();
-  command.add_option("--pairs", request.pairs, "pairs of processes")
+  command.add_option("--pairs", request.pairs, "number of pairs of processes")
       ->check(CLI::Range(std::size_t{5}, std::size_t{1000}))
       ->capture_default_str();
-  command.add_option("--pair-seconds", request.budget.seconds, "time that each pair plans for")
+  command.add_option("--pair-seconds", request.budget.seconds, "seconds that each pair plans")
       ->check(real_between(0.01, 600))
       ->capture_default_str();
-  command.add_option("--seed", request.seed, "of the order of plannings")
+  command.add_option("--seed", request.seed, "seed of the order of plannings")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   add_database_flag(command, arguments.database);
@@ -202,11 +202,11 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
 
 Command add_gate_command(CLI::App& program) {
   auto arguments = std::make_shared<GateArguments>();
-  CLI::App* command = program.add_subcommand(
-      "gate", "judge a build against another: same plans? slower? on this machine, now");
+  CLI::App* command =
+      program.add_subcommand("gate", "compare two builds on this machine, now: same plans, same speed?");
   command->footer(
-      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds; 25 when something\n"
-      "is suspicious and has to be confirmed by fresh processes.");
+      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds, or 25 if\n"
+      "fresh processes have to confirm a suspicion.");
   add_flags(*command, *arguments);
   return {command, [arguments] { return run_gate(*arguments); }};
 }

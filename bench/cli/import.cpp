@@ -60,7 +60,7 @@ Command add_import_command(CLI::App& program) {
       ->required()
       ->check(CLI::IsMember({"google-benchmark"}));
   command->add_option("files", arguments->files, "reports")->required()->type_name("FILE");
-  command->add_option("--suite", arguments->context.suite, "name for them; default: the program that ran");
+  command->add_option("--suite", arguments->context.suite, "suite name; default: the program that ran");
   command->add_option("--commit", arguments->context.commit, "hash of the commit that was measured")
       ->check([](const std::string& text) {
         return bench::is_commit_hash(text) ? std::string()

@@ -63,7 +63,7 @@ int run_merge(const MergeArguments& arguments) {
 Command add_merge_command(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command =
-      program.add_subcommand("merge", "add what other histories hold to this one; twice does no harm");
+      program.add_subcommand("merge", "merge other histories into this one; repeating it changes nothing");
   command->add_option("files", arguments->files, "histories to read")->required()->type_name("FILE");
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");

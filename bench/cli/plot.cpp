@@ -99,7 +99,7 @@ Command add_plot_command(CLI::App& program) {
                    "UUID, its first four or more digits, or latest; several for runtime")
       ->capture_default_str();
   add_case_flag(*command, arguments->cases);
-  command->add_option("-o,--output", arguments->file, "the file; default: standard output")
+  command->add_option("-o,--output", arguments->file, "file to write; default: standard output")
       ->type_name("FILE");
   add_database_flag(*command, arguments->database);
   return {command, [arguments] { return run_plot(*arguments); }};

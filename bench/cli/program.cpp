@@ -31,7 +31,7 @@ std::string help_command(const CLI::App& program) {
   return "sipplab " + (named.empty() ? "" : named.front()->get_name() + " ") + "--help";
 }
 
-/// argv[0] relative to the working directory where it lies below it.
+/// argv[0], relative to the working directory if it lies below it.
 std::string typed_program(const std::string& path) {
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
@@ -80,8 +80,8 @@ int parse_and_run(int argc, char** argv, const Laboratory& laboratory) {
   } catch (const CLI::ParseError& error) {
     return bad_usage(std::string(error.what()) + "; see " + help_command(program));
   } catch (const std::logic_error&) {
-    // Thrown by the library where a flag is given a value, --any-angle=foo.
-    return bad_usage("a flag with a value that is none of true and false; see " + help_command(program));
+    // Thrown by the library if a flag is given a value, --any-angle=foo.
+    return bad_usage("a flag has a value that is neither true nor false; see " + help_command(program));
   }
   for (const std::string& error :
        {empty_value_error(program), idle_flag_error(program), overwrite_error(program, laboratory.history)}) {

@@ -145,7 +145,7 @@ std::optional<std::string> write_pictures(const PropertyArguments& arguments, co
 }
 
 const char* text_of(bench::ProgramVerdict verdict) {
-  constexpr const char* kNames[] = {"holds by now", "still fails", "not run: it is not there any more"};
+  constexpr const char* kNames[] = {"holds by now", "still fails", "not run: its program is missing"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -203,30 +203,29 @@ void add_run_argument(CLI::App& command, PropertyArguments& arguments) {
 Command add_property_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<PropertyArguments>();
   arguments->program = invocation.program;
-  CLI::App* property =
-      program.add_subcommand("property", "results of the properties, and counterexamples again");
+  CLI::App* property = program.add_subcommand("property", "record, list and replay property runs");
   property->require_subcommand(1);
 
   CLI::App* record =
-      arguments->history.add_command(*property, "record", "take a log of property runs into the history");
-  record->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+      arguments->history.add_command(*property, "record", "record a log of property runs in the history");
+  record->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
   record->add_option("--mutant", arguments->mutant, "name of the bug that was planted in the planner");
   CLI::App* totals =
-      arguments->history.add_command(*property, "totals", "sum up a log; exit code 1 with failures in it");
-  totals->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+      arguments->history.add_command(*property, "totals", "sum up a log; exit code 1 if it has failures");
+  totals->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
 
   CLI::App* list = arguments->history.add_command(*property, "list", "the newest run of each property");
   list->add_option("--room", arguments->room, "only properties of this program");
   list->add_flag("--failed", arguments->failed, "only failures and crashes");
-  list->add_flag("--all", arguments->all, "every run, newest first, those with planted bugs too");
-  list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
+  list->add_flag("--all", arguments->all, "every run, newest first, including those with planted bugs");
+  list->add_option("--limit", arguments->limit, "most rows to show; 0: all")->capture_default_str();
   CLI::App* show =
       arguments->history.add_command(*property, "show", "one run, with its classes and counterexample");
   add_run_argument(*show, *arguments);
   CLI::App* replay =
       arguments->history.add_command(*property, "replay",
-                                     "try a counterexample again; exit code 1 where it still fails, 0 where "
-                                     "it holds, 3 where its program is not there");
+                                     "try a counterexample again; exit code 1 if it still fails, 0 if "
+                                     "it holds, 3 if its program is not there");
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");

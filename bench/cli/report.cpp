@@ -66,13 +66,14 @@ Command add_report_command(CLI::App& program) {
       program.add_subcommand("report", "write a run as one HTML page, with pictures beside it");
   command->add_option("run", arguments->run, "UUID, its first four or more digits, or latest")
       ->capture_default_str();
-  command->add_option("--base", arguments->base, "run to compare with; default: the one of its suite before")
+  command
+      ->add_option("--base", arguments->base, "run to compare with; default: the previous run of its suite")
       ->type_name("RUN");
-  command->add_option("-o,--output", arguments->folder, "folder, made if it is missing")
+  command->add_option("-o,--output", arguments->folder, "folder to write, created if missing")
       ->required()
       ->type_name("DIR");
   add_database_flag(*command, arguments->database);
-  command->add_flag("--json", arguments->json, "print one JSON document: what was written");
+  command->add_flag("--json", arguments->json, "print the written files as one JSON document");
   return {command, [arguments] { return run_report(*arguments); }};
 }
 

@@ -97,9 +97,9 @@ int run_reproduce(const ReproduceArguments& given) {
 
 void add_flags(CLI::App& command, ReproduceArguments& arguments) {
   BenchArguments& sweep = arguments.sweep;
-  command.add_flag("--quick", arguments.quick, "decisive cells on forty instances, in some minutes");
+  command.add_flag("--quick", arguments.quick, "only the decisive cells, on forty instances; takes minutes");
   CLI::Option* recorded =
-      command.add_option("--run", arguments.run, "plan nothing: judge this run of the history, or `latest`")
+      command.add_option("--run", arguments.run, "judge a recorded run (or `latest`) instead of planning")
           ->type_name("RUN");
   command
       .add_option("--instances", sweep.archive,
@@ -121,7 +121,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots))
       ->excludes(recorded);
-  command.add_option("--seed", sweep.seed, "of instances and random orders")
+  command.add_option("--seed", sweep.seed, "seed of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str()
       ->excludes(recorded);
@@ -145,11 +145,11 @@ Command add_reproduce_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<ReproduceArguments>();
   arguments->sweep.invocation = invocation;
   CLI::App* reproduce =
-      program.add_subcommand("reproduce", "a published experiment again, beside its figures");
+      program.add_subcommand("reproduce", "repeat a published experiment and compare with its figures");
   reproduce->require_subcommand(1);
   CLI::App* paper = reproduce->add_subcommand(
       "aamas2018",
-      "Andreychuk and Yakovlev (AAMAS 2018), Figure 1 and Table 1; exit code 1 where something differs");
+      "Andreychuk and Yakovlev (AAMAS 2018), Figure 1 and Table 1; exit code 1 if something differs");
   add_flags(*paper, *arguments);
   return {reproduce, [arguments] { return run_reproduce(*arguments); }};
 }

@@ -63,14 +63,14 @@ Command add_runs_command(CLI::App& program) {
   command->add_option("--kind", arguments->kind, "runs of this kind; default: sweeps and imported reports")
       ->check(CLI::IsMember({"sweep", "report", "property", "fuzz", "gate", "all"}));
   command->add_option("--suite", arguments->suite, "only runs of this suite, room or target");
-  command->add_option("--limit", arguments->limit, "newest runs shown")->capture_default_str();
-  command->add_flag("--all", arguments->all, "all runs, excluded ones too");
+  command->add_option("--limit", arguments->limit, "number of newest runs to show")->capture_default_str();
+  command->add_flag("--all", arguments->all, "show all runs, including excluded ones");
   CLI::Option* exclude =
       command->add_option("--exclude", arguments->exclude, "leave RUN out of comparisons")->type_name("RUN");
   CLI::Option* reason =
       command->add_option("--reason", arguments->reason, "why it is excluded")->needs(exclude);
   exclude->needs(reason);
-  command->add_option("--include", arguments->include, "take an exclusion back")
+  command->add_option("--include", arguments->include, "include an excluded run again")
       ->type_name("RUN")
       ->excludes(exclude);
   return {command, [arguments] { return run_runs(*arguments); }};

@@ -67,7 +67,7 @@ int run_sql_command(const SqlArguments& arguments) {
 Command add_sql_command(CLI::App& program) {
   auto arguments = std::make_shared<SqlArguments>();
   CLI::App* command =
-      program.add_subcommand("sql", "ask the history in SQL; --list tells the views and an example of each");
+      program.add_subcommand("sql", "query the history in SQL; --list shows the views with examples");
   arguments->history.add_to(*command);
   CLI::Option* query = command->add_option("query", arguments->query, "one SELECT statement");
   command->add_flag("--list", arguments->list, "list the views, with an example of each")->excludes(query);

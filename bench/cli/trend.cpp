@@ -90,19 +90,20 @@ Command add_trend_command(CLI::App& program) {
   add_case_flag(*command, arguments->cases);
   command->add_option("--suite", arguments->suite, "only runs of this suite");
   command->add_option("--branch", arguments->branch, "only runs of a checkout of this branch");
-  command->add_option("--machine", arguments->machine, "only this host, or beginning of a fingerprint");
-  command->add_option("--rows", arguments->rows, "newest versions shown of a single case")
+  command->add_option("--machine", arguments->machine,
+                      "only this host, or this beginning of a machine fingerprint");
+  command->add_option("--rows", arguments->rows, "number of newest versions to show of a single case")
       ->capture_default_str();
   command
       ->add_option("--min-segment", arguments->rules.search.min_segment,
-                   "versions between two changes, at least")
+                   "least number of versions between two changes")
       ->check(CLI::Range(2, 1'000))
       ->capture_default_str();
   command
       ->add_option("--min-effect", arguments->rules.min_effect,
                    "smallest change marked, 0.05 is 5 % (of a rate: 5 points); default by metric")
       ->check(real_between(0, kGreatestEffect));
-  command->add_option("--seed", arguments->rules.search.seed, "of the permutation tests")
+  command->add_option("--seed", arguments->rules.search.seed, "seed of the permutation tests")
       ->capture_default_str();
   command->add_option("--svg", arguments->svg, "write a picture")->type_name("FILE");
   add_database_flag(*command, arguments->database);

@@ -31,7 +31,7 @@ struct ValidateArguments {
   bool json = false;
 };
 
-/// The validator's opinion and, where it was asked for, what is proven.
+/// The validator's opinion and, if it was asked for, what is proven.
 struct Verdict {
   ValidationReport report;
   std::optional<Certification> certification;
@@ -159,7 +159,7 @@ Command add_validate_command(CLI::App& program) {
   arguments->motion.add_to(*command, {OptionGroup::kMotion});
   arguments->picture.add_to(*command, "draw the solution and its violations there");
   command->add_flag("--certify", arguments->certify,
-                    "prove for each pair that it is safe or collides; exit code 3 where neither is proven");
+                    "prove for each pair that it is safe or collides; exit code 3 if neither is proven");
   command->add_flag("--json", arguments->json, "print one JSON document");
   return {command, [arguments] { return run_validate(*arguments); }};
 }

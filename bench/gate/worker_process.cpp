@@ -67,7 +67,7 @@ void close_if_open(int descriptor) {
     cpu_set_t set;
     CPU_ZERO(&set);
     CPU_SET(static_cast<std::size_t>(*core), &set);
-    sched_setaffinity(0, sizeof set, &set);  // where it is refused, times are noisier and still right
+    sched_setaffinity(0, sizeof set, &set);  // if it is refused, times are noisier and still right
   }
   if (dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0) execve(program, arguments, variables);
   constexpr int kCannotExecute = 127;  // as shells do

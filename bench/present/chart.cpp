@@ -63,7 +63,7 @@ std::vector<double> linear_ticks(const Range& range) {
   return ticks;
 }
 
-/// Powers of ten; with 2 and 5 between them where there are few; round numbers where there
+/// Powers of ten; with 2 and 5 between them if there are few; round numbers if there
 /// would be hardly any.
 std::vector<double> log_ticks(const Range& range) {
   constexpr double kHardlyAny = 8;

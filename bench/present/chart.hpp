@@ -17,7 +17,7 @@ inline constexpr std::size_t kMostChartLines = 7;
 /// More numbers of robots than this are not all written below the x axis.
 inline constexpr std::size_t kMostNumbersOfRobots = 10;
 
-/// " (the first 7 of 36 lines)", or nothing where all are drawn.
+/// " (the first 7 of 36 lines)", or nothing if all are drawn.
 std::string omission_note(std::size_t lines);
 
 struct ChartMark {

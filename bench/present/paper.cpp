@@ -109,7 +109,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kFigureRobots[] = {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320};
 constexpr double kFigureSsiS[] = {1, 3, 5, 7, 9};
 constexpr std::int64_t kTableRobots[] = {16, 32, 64, 96, 128, 160, 192};
-/// From so many robots on orders have to be changed, in most instances of the warehouse.
+/// From this number of robots on, most instances of the warehouse need another order.
 constexpr std::int64_t kDense = 96;
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }

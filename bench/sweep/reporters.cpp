@@ -18,7 +18,7 @@ std::string number(std::optional<double> value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
-/// A column that describes the case; shown only where it tells cases apart, the
+/// A column that describes the case; shown only if it tells cases apart, the
 /// first two always.
 struct Parameter {
   const char* title;
