@@ -127,7 +127,7 @@ void check_collisions(Vec2 place, const MovingDisk& disk, double reach) {
   check_question(question, [&](double time_s) { return distance_at(place, disk, time_s); });
 }
 
-/// Obstacles' motions, and each robot on its straight way as soon as protection of starts
+/// Obstacles' motions, and each robot on its straight move as soon as protection of starts
 /// ends; those for whose range the oracle is made.
 std::vector<MovingDisk> disks_of(const PlanCase& plan_case) {
   std::vector<MovingDisk> disks;

@@ -46,7 +46,7 @@ std::size_t factorial(std::size_t n) {
   return product;
 }
 
-/// One step of a method, seen from outside: `next` is empty where it gave up.
+/// One step of a method, seen from outside: `next` is empty if it gave up.
 void check_step(Rescheduling rescheduling, const std::set<PriorityOrder>& tried, const PriorityOrder& order,
                 AgentIndex failed, const PriorityOrder* next) {
   if (next != nullptr) {
