@@ -51,7 +51,7 @@ def find_errors(mutants, root=ROOT):
 
 
 def wanted(mutants, only):
-    """Those named, by mutant or by room; all where none is."""
+    """Those named, by mutant or by room; all if none is."""
     if not only:
         return mutants
     unknown = set(only) - {mutant["name"] for mutant in mutants} - {mutant["room"] for mutant in mutants}

@@ -206,8 +206,8 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
   seen.classify();
 }
 
-/// Samples along the way, each of which speaks for a stretch around it. True when some of
-/// the way intrudes.
+/// Samples along the path, each of which speaks for a stretch around it. True when some of
+/// the path intrudes.
 bool agrees_with_samples(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {
   constexpr int kSamples = 500;
   const double stretch = way.length / kSamples / 2 + kPermittedDepthCells;

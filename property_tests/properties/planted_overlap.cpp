@@ -1,5 +1,5 @@
 // The validator finds every planted overlap, with pair, time and depth, and lets touching
-// pass. Depths come from radii: on a grid two ways are whole numbers of cells apart.
+// pass. Depths come from radii: on a grid two paths are whole numbers of cells apart.
 #include <rapidcheck.h>
 
 #include <cmath>

@@ -114,7 +114,7 @@ Instance convoy(Random& random, int size) {
     agent.speed_cells_per_s = i == 0 ? slow : 1.0;
     try_add(instance, agent);
   }
-  // Somebody who comes the other way.
+  // A robot that comes from the other side.
   if (random.one_in(2)) add_anywhere(random, instance, {});
   return instance;
 }

@@ -29,7 +29,7 @@ double origin_to_segment(Vec2 a, Vec2 b) {
   return norm(a + way * part);
 }
 
-/// Least distance over the time that both legs last, which may be rounded away where it
+/// Least distance over the time that both legs last, which may be rounded away if it
 /// is a single instant.
 double least_together(const Leg& a, const Leg& b, double rounding_s) {
   const double begin_s = std::max(a.begin_s, b.begin_s);

@@ -1,4 +1,4 @@
-// The published instances beside the project, where they are present.
+// The published instances beside the project, if they are present.
 #include <gtest/gtest.h>
 
 #include <algorithm>

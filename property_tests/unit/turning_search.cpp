@@ -87,7 +87,7 @@ TEST(TurningSearch, EndsWhereNoUsefulArrivalIsLeft) {
 }
 
 TEST(TurningSearch, AnEarlierArrivalWithAnotherHeadingDoesNotDominate) {
-  // Two ways lead to (2, 2). By the one over the top the robot is there after 8 s, but
+  // Two paths lead to (2, 2). By the one over the top the robot is there after 8 s, but
   // faces down and has 2 s to turn. By the other one it waits 3 s for the obstacle to
   // leave, is there after 9 s, and can go straight on.
   PlanCase plan_case = turning_case(
