@@ -48,7 +48,7 @@ bool Pibt::move(RobotId root) {
   while (!choices_.empty()) {
     Choice& choice = choices_.back();
     if (!reserve_candidate(choice)) {
-      assign(choice.robot, (*now_)[choice.robot]);  // in vain: whoever pushed it tries another cell
+      assign(choice.robot, (*now_)[choice.robot]);  // in vain: the robot that pushed it tries another cell
       choices_.pop_back();
       continue;
     }

@@ -280,7 +280,7 @@ class Painter {
     }
   }
 
-  /// Rings at the starts, in true size; smaller where a goal would be hidden.
+  /// Rings at the starts, in true size; smaller if a goal would be hidden.
   void starts() {
     std::set<Cell> goal_cells;
     for (const Agent& agent : instance_.agents) goal_cells.insert(agent.goal);
