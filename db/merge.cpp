@@ -29,7 +29,7 @@ struct Reference {
 struct TableShape {
   std::string name;
   std::vector<std::string> columns;  ///< without the integer key
-  bool has_key = false;              ///< an integer key named id, which is given anew
+  bool has_key = false;              ///< an integer key named id, of which merging makes a new one
   std::vector<std::vector<std::string>> unique;
   std::vector<Reference> references;
 };

@@ -83,7 +83,7 @@ Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> 
   const auto version = SIPPLAB_TRY(connection.query_int("PRAGMA user_version", kReadingHeader));
   if (version >= steps.back().version) return Done{};
   const auto enforced = SIPPLAB_TRY(connection.query_int("PRAGMA foreign_keys", kReadingHeader));
-  // A table that others refer to can be dropped and made anew without enforcement only, which
+  // A table that others refer to can be dropped and rebuilt only without enforcement, which
   // cannot change within a transaction. Each step checks its result instead.
   SIPPLAB_TRY(connection.execute("PRAGMA foreign_keys = OFF", "preparing migrations"));
   Result<Done> done = Done{};

@@ -71,7 +71,7 @@ struct RunInfo : RunOrigin {
   std::string suite;
   std::string shard;  ///< "2/8": the second of eight parts of the suite; empty for all of it
   std::string command_line;
-  /// What must agree, besides suite, build and machine, for a run to be resumed:
+  /// What must agree, in addition to suite, build and machine, for a run to be resumed:
   /// a canonical text of the options that change results, such as
   /// "count=50 seed=1 repetitions=1 instances=generated".
   std::string options;

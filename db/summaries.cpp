@@ -93,7 +93,7 @@ Result<Done> rebuild_summaries(sqlite::Connection& connection) {
   SIPPLAB_TRY(connection.execute(
       fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, {1} FROM v_recomputed_cells", kColumns,
                   kMedians),
-      "making summaries anew"));
+      "computing all summaries"));
   return transaction.commit();
 }
 

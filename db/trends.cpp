@@ -270,7 +270,7 @@ double median_between(const std::vector<TrendPoint>& points, std::size_t begin, 
 }
 
 /// Drops the changes that are too small to matter. A level reaches from one change to the next,
-/// so that the levels are taken anew whenever one is dropped.
+/// so the levels are computed again whenever one is dropped.
 void drop_small_changes(TrendSeries& series, const TrendMetric& metric, double min_effect) {
   for (;;) {
     std::size_t smallest = series.changes.size();

@@ -23,7 +23,7 @@ using fuzz::Claim;
 /// Slacks from the end of an interval at which the verdict has to be that of its inside: an
 /// end is off by one slack, rounding included by two.
 constexpr double kSlacksInside = 4;
-/// How far from an end the times beside it are looked at, in seconds.
+/// How far from an end the times near it are checked, in seconds.
 constexpr double kBesideS[] = {1e-8, 1e-6, 1e-4, 1e-2, 0.25};
 /// Times that are looked at all over a span.
 constexpr int kSpread = 12;

@@ -22,7 +22,7 @@ inline constexpr std::chrono::seconds kBusyTimeout{60};
 enum class OpenMode {
   kReadWrite,  ///< the file is made if it is missing
   kReadOnly,
-  kImmutable,  ///< read-only media: no locks, no files beside the database
+  kImmutable,  ///< read-only media: no locks, no files next to the database
 };
 
 /// The open file and what an error message needs to know of it. Its address stays

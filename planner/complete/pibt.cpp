@@ -147,7 +147,7 @@ RobotId Pibt::swap_partner(RobotId robot, CellId wanted) const {
       is_swap_possible(here, wanted)) {
     return opposite;
   }
-  // The robot may have to clear the way for one beside it.
+  // The robot may have to clear the way for one next to it.
   for (const CellId cell : grid_.neighbours(here)) {
     const RobotId beside = robot_at_[cell];
     if (beside == kNoRobot || cell == wanted) continue;

@@ -15,7 +15,7 @@ struct StartOrder {
   double kept_s = 0;
 };
 
-/// Who crosses the start of another robot needs the lower priority of the two. The order that
+/// A robot that crosses the start of another one needs the lower priority of the two. The order that
 /// keeps the promise the longest: in [0, kept_s], kept_s <= wanted_s, no robot comes too near
 /// the start of one of lower priority; kept_s < wanted_s only if no order keeps it any
 /// longer. Of such orders the one that comes first in the order of input.

@@ -1,4 +1,4 @@
-// Who visits which cell, and in which order: what is left of a plan in discrete time when
+// Which robot visits which cell, and in which order: what is left of a plan in discrete time when
 // its clock is taken away.
 #pragma once
 

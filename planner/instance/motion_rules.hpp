@@ -12,7 +12,7 @@ struct MotionRules {
   /// Agent::rotation_speed, from Agent::start_heading_deg to Agent::goal_heading_deg.
   bool turns = false;
   /// Seconds, 0 to kMaxMotionMargin. A robot stands at least so long before each of its
-  /// straight motions, besides the time that it turns ("waitbeforemove").
+  /// straight motions, in addition to the time that it turns ("waitbeforemove").
   double wait_before_move_s = 0;
   /// Cells, 0 to kMaxMotionMargin. While a robot moves, it stays so much farther than the
   /// radii ask for from robots of higher priority and from dynamic obstacles. A robot that

@@ -6,7 +6,7 @@
 namespace sipplab {
 namespace {
 
-/// Columns of a case that tell cases apart beside the label.
+/// Columns of a case that distinguish cases in addition to the label.
 constexpr std::string_view kToldBeside[] = {
     "ssi", "order", "reschedule", "seed", "max-expansions", "max-restarts", "time-limit"};
 

@@ -114,7 +114,7 @@ struct PlannerOptions {
   const std::atomic<bool>* stop = nullptr;
 
   Method method = Method::kPrioritized;
-  /// The limits apply to it anew: it begins after they were reached.
+  /// The limits apply to it separately: it begins after they were reached.
   Fallback fallback = Fallback::kNone;
 
   /// All methods in turn, then improvement for what is left of the time limit.

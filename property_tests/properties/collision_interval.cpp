@@ -17,7 +17,7 @@ namespace {
 /// Slacks from the end of an interval at which the verdict has to be that of its inside:
 /// an end is off by one slack, rounding included by two.
 constexpr double kSlacksInside = 4;
-/// How far from an end the times beside it are looked at, in seconds.
+/// How far from an end the times near it are checked, in seconds.
 constexpr double kBesideS[] = {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5};
 
 /// What one comparison of an interval with distances needs to know.

@@ -77,7 +77,7 @@ std::vector<Measured> measure(const Budget& budget) {
 }
 
 /// A property run whose classes are the outcomes, so that the history keeps it as one,
-/// with the kind "rate" and the interval beside it.
+/// with the kind "rate" and the interval next to it.
 std::string log_line(const Measured& measured, const Budget& budget) {
   const Rate& rate = measured.rate;
   db::PropertyRun record;

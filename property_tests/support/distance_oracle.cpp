@@ -73,7 +73,7 @@ BisectedSpan below(double low, double high, double into_rest_s, double reach, co
   const double near = reach - kTouchDepthCells;
   BisectedSpan span;
   span.deepest_s = least_at(low, high, reach / 2, function);
-  // The search ends just beside an end at which the function is least.
+  // The search ends close to an end at which the function is least.
   for (const double end_s : {low, high}) {
     if (function(end_s) < function(span.deepest_s)) span.deepest_s = end_s;
   }
