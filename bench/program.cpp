@@ -134,8 +134,10 @@ ProgramRun run_program(const std::vector<std::string>& command, const ProgramOpt
   std::vector<std::string> variables = merged_environment(options.environment);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, options.log.c_str(),
-                                   O_WRONLY | O_CREAT | O_APPEND, 0644);
+  if (!options.log.empty()) {
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, options.log.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
+  }
   posix_spawn_file_actions_adddup2(&actions, options.all_to_log ? STDERR_FILENO : ends[1], STDOUT_FILENO);
   if (!options.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   posix_spawnattr_t attributes;

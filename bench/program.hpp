@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,10 @@ namespace sipplab::bench {
 
 struct ProgramOptions {
   std::vector<std::string> environment = {};  ///< "NAME=value", replacing or added
-  std::filesystem::path log;                  ///< stderr goes to its end
-  double limit_s = 0;                         ///< wall clock; killed then
-  std::filesystem::path folder = {};          ///< to run in; empty: this process's own
-  bool all_to_log = false;                    ///< stdout goes to the log, too
+  std::filesystem::path log = {};             ///< stderr goes to its end; empty: to this process's stderr
+  double limit_s = std::numeric_limits<double>::infinity();  ///< wall clock; killed then
+  std::filesystem::path folder = {};                         ///< to run in; empty: this process's own
+  bool all_to_log = false;                                   ///< stdout goes where stderr goes
   /// The program leads a process group of its own, all of which is killed when the program
   /// ends or its time is up. Asked while it runs: whether to give up on it.
   bool own_group = false;

@@ -1,4 +1,4 @@
-// A folder for files that nobody needs afterwards.
+// A folder for temporary files.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace sipplab::bench {
 /// Among the system's temporary files; removed with all that is in it.
 class TemporaryFolder {
  public:
-  /// Errors: one line, where none can be made.
+  /// Errors: one line, if none can be made.
   static Expected<TemporaryFolder, std::string> make();
 
   TemporaryFolder(TemporaryFolder&& other) noexcept;

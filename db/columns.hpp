@@ -40,6 +40,13 @@ sqlite::Bytes to_sql(const AsBlob<Text>& value) {
   return {value.text};
 }
 
+template <class T>
+void bind(sqlite::Statement& statement, int index, const T& value) {
+  statement.bind_at(index, to_sql(value));
+}
+/// A number or a text; of a blob, which no parameter has, NULL.
+void bind(sqlite::Statement& statement, int index, const Value& value);
+
 inline void from_sql(const sqlite::Statement& row, int column, std::string& value) {
   value = row.text(column);
 }
@@ -66,6 +73,7 @@ inline void from_sql(const sqlite::Statement& row, int column, const AsBlob<std:
   value.text = row.text(column);
 }
 
+inline Value to_value(const Value& value) { return value; }
 inline Value to_value(std::int64_t value) { return value; }
 inline Value to_value(double value) { return value; }
 inline Value to_value(bool value) { return std::int64_t{value ? 1 : 0}; }
@@ -85,20 +93,28 @@ std::string column_names(const Each& each) {
   return names;
 }
 
+/// "INSERT INTO TABLE (...) VALUES (?, ...)" with a place for each column.
+template <class Each>
+std::string insert_sql(const std::string& table, const Each& each) {
+  std::string places;
+  each([&places](std::string_view, const auto&) { places += places.empty() ? "?" : ", ?"; });
+  return "INSERT INTO " + table + " (" + column_names(each) + ") VALUES (" + places + ")";
+}
+
+/// Binds the value of each column to its place.
+template <class Each>
+sqlite::Statement& bind_row(sqlite::Statement& insert, const Each& each) {
+  int index = 0;
+  each([&insert, &index](std::string_view, const auto& value) { detail::bind(insert, ++index, value); });
+  return insert;
+}
+
 /// Writes one row; gives its rowid.
 template <class Each>
 Result<std::int64_t> insert_row(sqlite::Connection& connection, const std::string& table,
                                 std::string_view doing, const Each& each) {
-  std::string places;
-  each([&places](std::string_view, const auto&) { places += places.empty() ? "?" : ", ?"; });
-  auto insert = sqlite::Statement::prepare(
-      connection, "INSERT INTO " + table + " (" + column_names(each) + ") VALUES (" + places + ")", doing);
-  if (!insert) return Unexpected{insert.error()};
-  int index = 0;
-  each([&insert, &index](std::string_view, const auto& value) {
-    insert->bind_at(++index, detail::to_sql(value));
-  });
-  if (auto done = insert->run(); !done) return Unexpected{done.error()};
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(connection, insert_sql(table, each), doing));
+  SIPPLAB_TRY(bind_row(insert, each).run());
   return connection.last_insert_rowid();
 }
 

@@ -41,32 +41,29 @@ Error not_found(const Database& database, std::string_view text) {
 
 /// Keys of the runs that `where` (with one parameter) leaves, oldest first.
 Result<std::vector<std::int64_t>> run_ids(Database& database, const char* where, const std::string& value) {
-  auto select =
-      Statement::prepare(database.connection(),
+  return SIPPLAB_TRY(Statement::prepare(
+                         database.connection(),
                          fmt::format("SELECT run.id FROM run JOIN build ON build.id = run.build_id "
                                      "LEFT JOIN commit_ ON commit_.id = run.commit_id "
                                      "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL "
                                      "AND {} ORDER BY run.started_utc, run.id",
                                      where),
-                         kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(value);
-  return select->collect([](const Statement& row) { return row.integer(0); });
+                         kReadingRuns, value))
+      .collect([](const Statement& row) { return row.integer(0); });
 }
 
 /// Hashes of commits with runs that count, at most two: the beginning may fit several.
 Result<std::vector<std::string>> commits(Database& database, const char* where, const std::string& value) {
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format(
-          "SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
-          "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL AND {} GROUP BY commit_.id "
-          "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
-          where),
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(value);
-  return select->collect([](const Statement& row) { return row.text(0); });
+  return SIPPLAB_TRY(
+             Statement::prepare(
+                 database.connection(),
+                 fmt::format("SELECT commit_.hash FROM run JOIN commit_ ON commit_.id = run.commit_id "
+                             "WHERE run.kind IN ('sweep', 'report') AND run.excluded_reason IS NULL AND {} "
+                             "GROUP BY commit_.id "
+                             "ORDER BY commit_.ancestor_count DESC, commit_.committed_utc DESC LIMIT 2",
+                             where),
+                 kReadingRuns, value))
+      .collect([](const Statement& row) { return row.text(0); });
 }
 
 using Sides = std::vector<ComparisonSide>;
@@ -79,9 +76,8 @@ Result<Sides> as_run(Database& database, const std::string& text) {
     if (uuid.error().kind == ErrorKind::kNotFound) return Sides{};
     return Unexpected{uuid.error()};
   }
-  auto ids = run_ids(database, "run.uuid = ?", *uuid);
-  if (!ids) return Unexpected{ids.error()};
-  if (ids->empty()) {
+  auto ids = SIPPLAB_TRY(run_ids(database, "run.uuid = ?", *uuid));
+  if (ids.empty()) {
     const auto report = show_run(database, *uuid);
     if (report && !report->run.excluded_reason) return Sides{};  // of a kind without cases
     return Unexpected{Error{ErrorKind::kNotFound,
@@ -89,50 +85,45 @@ Result<Sides> as_run(Database& database, const std::string& text) {
                                         "--include` takes an exclusion back)",
                                         database.path().string(), uuid->substr(0, kShortHash))}};
   }
-  ComparisonSide side{"run " + uuid->substr(0, kShortHash), std::nullopt, std::move(*ids)};
-  const auto hashes = commits(database, "run.uuid = ?", *uuid);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (!hashes->empty()) {
-    side.commit_hash = hashes->front();
-    side.title += " of commit " + hashes->front().substr(0, kShortHash);
+  ComparisonSide side{"run " + uuid->substr(0, kShortHash), std::nullopt, std::move(ids)};
+  const auto hashes = SIPPLAB_TRY(commits(database, "run.uuid = ?", *uuid));
+  if (!hashes.empty()) {
+    side.commit_hash = hashes.front();
+    side.title += " of commit " + hashes.front().substr(0, kShortHash);
   }
   return Sides{std::move(side)};
 }
 
 /// The runs of builds of just this commit; if there is none, those with uncommitted changes.
 Result<Sides> of_commit(Database& database, const std::string& hash, const std::string& title) {
-  auto clean = run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash);
-  if (!clean) return Unexpected{clean.error()};
-  auto dirty = run_ids(database, "build.dirty = 1 AND commit_.hash = ?", hash);
-  if (!dirty) return Unexpected{dirty.error()};
-  if (clean->empty()) {
-    return Sides{{title + "+ (uncommitted changes) " + counted_runs(dirty->size()), hash, std::move(*dirty)}};
+  auto clean = SIPPLAB_TRY(run_ids(database, "build.dirty = 0 AND commit_.hash = ?", hash));
+  auto dirty = SIPPLAB_TRY(run_ids(database, "build.dirty = 1 AND commit_.hash = ?", hash));
+  if (clean.empty()) {
+    return Sides{{title + "+ (uncommitted changes) " + counted_runs(dirty.size()), hash, std::move(dirty)}};
   }
-  std::string name = title + " " + counted_runs(clean->size());
-  if (!dirty->empty()) name += fmt::format(" without {} of uncommitted changes", dirty->size());
-  return Sides{{std::move(name), hash, std::move(*clean)}};
+  std::string name = title + " " + counted_runs(clean.size());
+  if (!dirty.empty()) name += fmt::format(" without {} of uncommitted changes", dirty.size());
+  return Sides{{std::move(name), hash, std::move(clean)}};
 }
 
 Result<Sides> as_commit(Database& database, const std::string& text) {
   constexpr std::size_t kShortestPrefix = 4;
   if (text.size() < kShortestPrefix || !is_hexadecimal(text)) return Sides{};
-  const auto hashes = commits(database, "commit_.hash LIKE ? || '%'", text);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (hashes->empty()) return Sides{};
-  if (hashes->size() > 1) {
+  const auto hashes = SIPPLAB_TRY(commits(database, "commit_.hash LIKE ? || '%'", text));
+  if (hashes.empty()) return Sides{};
+  if (hashes.size() > 1) {
     return Unexpected{
         Error{ErrorKind::kBadInput, fmt::format("{}: {} fits more than one commit, expected more digits",
                                                 database.path().string(), text)}};
   }
-  return of_commit(database, hashes->front(), "commit " + hashes->front().substr(0, kShortHash));
+  return of_commit(database, hashes.front(), "commit " + hashes.front().substr(0, kShortHash));
 }
 
 Result<Sides> as_branch(Database& database, const std::string& text) {
-  const auto hashes = commits(database, "run.branch = ?", text);
-  if (!hashes) return Unexpected{hashes.error()};
-  if (hashes->empty()) return Sides{};
-  return of_commit(database, hashes->front(),
-                   fmt::format("branch {} at {}", text, hashes->front().substr(0, kShortHash)));
+  const auto hashes = SIPPLAB_TRY(commits(database, "run.branch = ?", text));
+  if (hashes.empty()) return Sides{};
+  return of_commit(database, hashes.front(),
+                   fmt::format("branch {} at {}", text, hashes.front().substr(0, kShortHash)));
 }
 
 /// A cell of one side: the newest that finished the case.
@@ -146,35 +137,32 @@ struct CellKey {
 };
 
 Result<std::set<std::int64_t>> instances_of(Database& database, std::int64_t cell) {
-  auto select = Statement::prepare(database.connection(),
-                                   "SELECT DISTINCT instance_id FROM result WHERE cell_id = ?", kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  const auto ids = select->bind(cell).collect([](const Statement& row) { return row.integer(0); });
-  if (!ids) return Unexpected{ids.error()};
-  return std::set<std::int64_t>(ids->begin(), ids->end());
+  auto select = SIPPLAB_TRY(Statement::prepare(
+      database.connection(), "SELECT DISTINCT instance_id FROM result WHERE cell_id = ?", kReadingRuns));
+  const auto ids =
+      SIPPLAB_TRY(select.bind(cell).collect([](const Statement& row) { return row.integer(0); }));
+  return std::set<std::int64_t>(ids.begin(), ids.end());
 }
 
 /// By case.
 using Cells = std::map<std::int64_t, CellKey>;
 
 Result<Cells> newest_cells(Database& database, const ComparisonSide& side) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       "SELECT cell.id, run.uuid, machine.fingerprint, build.binary_hash, case_.* FROM cell "
       "JOIN run ON run.id = cell.run_id JOIN machine ON machine.id = run.machine_id "
       "JOIN build ON build.id = run.build_id JOIN case_ ON case_.id = cell.case_id WHERE cell.run_id = ?",
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
+      kReadingRuns));
   constexpr int kCaseColumn = 4;
   Cells cells;
   for (const std::int64_t run : side.run_ids) {
-    select->bind(run);
-    const auto done = select->for_each([&] {
-      cells[select->integer(kCaseColumn)] = {select->integer(0), select->text(1), select->text(2), select->text(3),
-                                             read_case(*select, kCaseColumn), {}};
-    });
-    if (!done) return Unexpected{done.error()};
-    select->reset();
+    select.bind(run);
+    SIPPLAB_TRY(select.for_each([&] {
+      cells[select.integer(kCaseColumn)] = {select.integer(0), select.text(1), select.text(2), select.text(3),
+                                            read_case(select, kCaseColumn), {}};
+    }));
+    select.reset();
   }
   return cells;
 }
@@ -275,7 +263,7 @@ Result<std::int64_t> result_count(Database& database, std::int64_t cell) {
 }
 
 Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head, PairedCell& cell) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       // Positions may differ between folders; of equal files in one folder the first goes with the first.
       fmt::format("WITH numbered AS (SELECT *, row_number() OVER (PARTITION BY cell_id, instance_id, repetition "
@@ -287,27 +275,22 @@ Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head
                   "JOIN instance ON instance.id = base.instance_id "
                   "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
                   fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
-      kReadingRuns);
-  if (!select) return Unexpected{select.error()};
-  select->bind(base, head);
+      kReadingRuns, base, head));
   constexpr int kBaseColumn = 4;
   constexpr int kHeadColumn = 14;
   for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) break;
-    PairedResult pair{select->text(0), select->text(1), read_result(*select, kBaseColumn),
-                      read_result(*select, kHeadColumn)};
-    pair.base.position = pair.head.position = select->integer(2);
-    pair.base.repetition = pair.head.repetition = select->integer(3);
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) break;
+    PairedResult pair{select.text(0), select.text(1), read_result(select, kBaseColumn),
+                      read_result(select, kHeadColumn)};
+    pair.base.position = pair.head.position = select.integer(2);
+    pair.base.repetition = pair.head.repetition = select.integer(3);
     cell.results.push_back(std::move(pair));
   }
-  const auto base_count = result_count(database, base);
-  if (!base_count) return Unexpected{base_count.error()};
-  const auto head_count = result_count(database, head);
-  if (!head_count) return Unexpected{head_count.error()};
-  cell.base_only = static_cast<std::size_t>(*base_count) - cell.results.size();
-  cell.head_only = static_cast<std::size_t>(*head_count) - cell.results.size();
+  const auto base_count = SIPPLAB_TRY(result_count(database, base));
+  const auto head_count = SIPPLAB_TRY(result_count(database, head));
+  cell.base_only = static_cast<std::size_t>(base_count) - cell.results.size();
+  cell.head_only = static_cast<std::size_t>(head_count) - cell.results.size();
   return Done{};
 }
 
@@ -326,9 +309,8 @@ Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
   for (const Reading& reading : kReadings) {
     if (said != std::end(kReadings) && said->prefix != reading.prefix) continue;
     const std::string_view name = said == std::end(kReadings) ? text : text.substr(said->prefix.size());
-    auto sides = reading.read(database, std::string(name));
-    if (!sides) return Unexpected{sides.error()};
-    found.insert(found.end(), sides->begin(), sides->end());
+    auto sides = SIPPLAB_TRY(reading.read(database, std::string(name)));
+    found.insert(found.end(), sides.begin(), sides.end());
   }
   if (found.empty()) return Unexpected{not_found(database, text)};
   if (found.size() > 1) {
@@ -341,14 +323,11 @@ Result<ComparisonSide> resolve_side(Database& database, std::string_view text) {
 
 Result<std::vector<PairedCell>> paired_cells(Database& database, const ComparisonSide& base,
                                              const ComparisonSide& head) {
-  auto base_cells = newest_cells(database, base);
-  if (!base_cells) return Unexpected{base_cells.error()};
-  auto head_cells = newest_cells(database, head);
-  if (!head_cells) return Unexpected{head_cells.error()};
-  const auto pairs = pairs_of(database, *base_cells, *head_cells);
-  if (!pairs) return Unexpected{pairs.error()};
+  auto base_cells = SIPPLAB_TRY(newest_cells(database, base));
+  auto head_cells = SIPPLAB_TRY(newest_cells(database, head));
+  const auto pairs = SIPPLAB_TRY(pairs_of(database, base_cells, head_cells));
   std::vector<PairedCell> cells;
-  for (const auto& [of_base, of_head] : *pairs) {
+  for (const auto& [of_base, of_head] : pairs) {
     PairedCell cell;
     cell.parameters = of_head->parameters;
     if (of_base->parameters != of_head->parameters) cell.base_planner = of_base->parameters.planner;
@@ -356,7 +335,7 @@ Result<std::vector<PairedCell>> paired_cells(Database& database, const Compariso
     cell.head_run = of_head->run;
     cell.same_machine = of_base->machine == of_head->machine;
     cell.same_program = of_base->program == of_head->program && !of_base->program.empty();
-    if (auto done = read_pairs(database, of_base->cell, of_head->cell, cell); !done) return Unexpected{done.error()};
+    SIPPLAB_TRY(read_pairs(database, of_base->cell, of_head->cell, cell));
     cells.push_back(std::move(cell));
   }
   std::stable_sort(cells.begin(), cells.end(), [](const PairedCell& a, const PairedCell& b) {

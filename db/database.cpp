@@ -50,7 +50,7 @@ Result<Done> configure_for_writing(sqlite::Connection& connection) {
   for (const char* pragma :
        {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL", "PRAGMA foreign_keys = ON",
         "PRAGMA cache_size = -32768", "PRAGMA wal_autocheckpoint = 4096"}) {
-    if (auto done = connection.execute(pragma, "preparing it for writing"); !done) return done;
+    SIPPLAB_TRY(connection.execute(pragma, "preparing it for writing"));
   }
   return Done{};
 }
@@ -64,13 +64,11 @@ bool has_write_ahead_log(const fs::path& path) {
 // On a read-only medium SQLite cannot place its lock files. Without a log to replay
 // the file alone is the whole database, and no process can be writing to it.
 Result<sqlite::Connection> open_for_reading(const fs::path& path, SchemaState& state) {
-  auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly);
-  if (!connection) return connection;
-  auto inspected = inspect(*connection, migrations());
+  auto connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly));
+  auto inspected = inspect(connection, migrations());
   if (!inspected && inspected.error().kind == ErrorKind::kCannotOpen && !has_write_ahead_log(path)) {
-    connection = sqlite::Connection::open(path, sqlite::OpenMode::kImmutable);
-    if (!connection) return connection;
-    inspected = inspect(*connection, migrations());
+    connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kImmutable));
+    inspected = inspect(connection, migrations());
   }
   if (!inspected) return Unexpected{inspected.error()};
   state = *inspected;
@@ -102,31 +100,27 @@ int Database::latest_schema_version() { return migrations().back().version; }
 
 Result<Database> Database::open(const fs::path& path) {
   if (auto error = find_path_error(path, false)) return Unexpected{*error};
-  auto connection = sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite);
-  if (!connection) return Unexpected{connection.error()};
-  const auto state = inspect(*connection, migrations());
-  if (!state) return Unexpected{state.error()};
-  if (auto done = configure_for_writing(*connection); !done) return Unexpected{done.error()};
-  if (auto done = migrate(*connection, migrations()); !done) return Unexpected{done.error()};
-  return Database{std::move(*connection), path};
+  auto connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite));
+  SIPPLAB_TRY(inspect(connection, migrations()));
+  SIPPLAB_TRY(configure_for_writing(connection));
+  SIPPLAB_TRY(migrate(connection, migrations()));
+  return Database{std::move(connection), path};
 }
 
 Result<Database> Database::open_read_only(const fs::path& path) {
   if (auto error = find_path_error(path, true)) return Unexpected{*error};
   SchemaState state;
-  auto connection = open_for_reading(path, state);
-  if (!connection) return Unexpected{connection.error()};
+  auto connection = SIPPLAB_TRY(open_for_reading(path, state));
   if (state.fresh) {
     return Unexpected{Error{
         ErrorKind::kNotADatabase,
         fmt::format("{}: an empty file, expected a history; `sipplab bench` makes one", path.string())}};
   }
   if (state.version < latest_schema_version()) {
-    if (auto migrated = open(path); !migrated) return Unexpected{migrated.error()};
-    connection = open_for_reading(path, state);
-    if (!connection) return Unexpected{connection.error()};
+    SIPPLAB_TRY(open(path));
+    connection = SIPPLAB_TRY(open_for_reading(path, state));
   }
-  Database database{std::move(*connection), path};
+  Database database{std::move(connection), path};
   database.sweeper_ = std::make_unique<LogSweeper>(path);
   return database;
 }

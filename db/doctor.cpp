@@ -66,15 +66,15 @@ class Examination {
 
   /// The first column of every row.
   Result<std::vector<std::string>> texts(const std::string& sql) {
-    auto select = Statement::prepare(connection_, sql, kExamining);
-    if (!select) return Unexpected{select.error()};
-    return select->collect([](const Statement& row) { return row.text(0); });
+    return SIPPLAB_TRY(Statement::prepare(connection_, sql, kExamining)).collect([](const Statement& row) {
+      return row.text(0);
+    });
   }
 
   Result<Done> integrity() {
-    const auto lines = texts(options_.quick ? "PRAGMA quick_check(5)" : "PRAGMA integrity_check(5)");
-    if (!lines) return Unexpected{lines.error()};
-    for (const std::string& line : *lines) {
+    const auto lines =
+        SIPPLAB_TRY(texts(options_.quick ? "PRAGMA quick_check(5)" : "PRAGMA integrity_check(5)"));
+    for (const std::string& line : lines) {
       if (line == "ok") continue;
       add(line.substr(0, line.find('\n')),
           "restore a copy, or save what can be read: sqlite3 FILE .recover | sqlite3 NEW-FILE");
@@ -84,39 +84,33 @@ class Examination {
 
   /// Name and definition of everything in a schema.
   static Result<std::map<std::string, std::string>> definitions(Connection& connection) {
-    auto select = Statement::prepare(
+    auto select = SIPPLAB_TRY(Statement::prepare(
         connection,
         "SELECT type || ' ' || name, ifnull(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite%'",
-        kExamining);
-    if (!select) return Unexpected{select.error()};
+        kExamining));
     std::map<std::string, std::string> found;
-    const auto done = select->for_each([&] { found[select->text(0)] = select->text(1); });
-    if (!done) return Unexpected{done.error()};
+    SIPPLAB_TRY(select.for_each([&] { found[select.text(0)] = select.text(1); }));
     return found;
   }
 
   Result<Done> schema() {
-    auto fresh = Connection::open_in_memory();
-    if (!fresh) return Unexpected{fresh.error()};
-    if (auto done = migrate(*fresh, migrations()); !done) return done;
-    const auto expected = definitions(*fresh);
-    if (!expected) return Unexpected{expected.error()};
-    const auto found = definitions(connection_);
-    if (!found) return Unexpected{found.error()};
-    for (const auto& [name, sql] : *expected) {
-      const auto here = found->find(name);
-      if (here != found->end() && here->second == sql) continue;
+    auto fresh = SIPPLAB_TRY(Connection::open_in_memory());
+    SIPPLAB_TRY(migrate(fresh, migrations()));
+    const auto expected = SIPPLAB_TRY(definitions(fresh));
+    const auto found = SIPPLAB_TRY(definitions(connection_));
+    for (const auto& [name, sql] : expected) {
+      const auto here = found.find(name);
+      if (here != found.end() && here->second == sql) continue;
       add(fmt::format("{} {}", name,
-                      here == found->end() ? "is missing" : "differs from what the migrations create"),
+                      here == found.end() ? "is missing" : "differs from what the migrations create"),
           "merge it into a new file, which has the right schema: sipplab merge FILE --db NEW-FILE");
     }
     return Done{};
   }
 
   Result<Done> views() {
-    const auto names = texts("SELECT name FROM sqlite_schema WHERE type = 'view' ORDER BY name");
-    if (!names) return Unexpected{names.error()};
-    for (const std::string& name : *names) {
+    const auto names = SIPPLAB_TRY(texts("SELECT name FROM sqlite_schema WHERE type = 'view' ORDER BY name"));
+    for (const std::string& name : names) {
       const auto answer = texts(fmt::format("SELECT 1 FROM (SELECT * FROM \"{}\" LIMIT 1)", name));
       if (!answer) add(fmt::format("{}: {}", name, answer.error().message), "see schema");
     }
@@ -124,11 +118,10 @@ class Examination {
   }
 
   Result<Done> foreign_keys() {
-    const auto rows = texts(
+    const auto rows = SIPPLAB_TRY(texts(
         "SELECT printf('%d rows of %s point to rows of %s that are not there', count(*), \"table\", parent) "
-        "FROM pragma_foreign_key_check GROUP BY \"table\", parent");
-    if (!rows) return Unexpected{rows.error()};
-    for (const std::string& row : *rows) {
+        "FROM pragma_foreign_key_check GROUP BY \"table\", parent"));
+    for (const std::string& row : rows) {
       add(row,
           "another program wrote here without foreign keys; restore a copy, or delete those rows "
           "(PRAGMA foreign_key_check names them)");
@@ -137,14 +130,13 @@ class Examination {
   }
 
   Result<Done> results() {
-    const auto rows = texts(
-        "SELECT printf('run %.8s, case %d: %d results, expected %d', run.uuid, cell.case_id, found, "
-        "cell.result_count) FROM (SELECT cell.id AS id, "
-        "(SELECT count(*) FROM result WHERE cell_id = cell.id) AS found FROM cell) AS counted "
-        "JOIN cell ON cell.id = counted.id JOIN run ON run.id = cell.run_id "
-        "WHERE found <> cell.result_count LIMIT 10");
-    if (!rows) return Unexpected{rows.error()};
-    for (const std::string& row : *rows) {
+    const auto rows = SIPPLAB_TRY(
+        texts("SELECT printf('run %.8s, case %d: %d results, expected %d', run.uuid, cell.case_id, found, "
+              "cell.result_count) FROM (SELECT cell.id AS id, "
+              "(SELECT count(*) FROM result WHERE cell_id = cell.id) AS found FROM cell) AS counted "
+              "JOIN cell ON cell.id = counted.id JOIN run ON run.id = cell.run_id "
+              "WHERE found <> cell.result_count LIMIT 10"));
+    for (const std::string& row : rows) {
       add(row,
           "another program changed results: exclude the run with "
           "`sipplab runs --exclude RUN --reason ...`");
@@ -153,15 +145,14 @@ class Examination {
   }
 
   Result<Done> summaries() {
-    const auto stale = options_.quick
-                           ? connection_.query_int(
-                                 "SELECT count(*) FROM cell LEFT JOIN cell_summary USING (case_id, run_id) "
-                                 "WHERE cell_summary.results IS NOT cell.result_count",
-                                 kExamining)
-                           : count_stale_summaries(connection_);
-    if (!stale) return Unexpected{stale.error()};
-    if (*stale == 0) return Done{};
-    return add_fixable(fmt::format("{} cells whose summary is missing or differs from their results", *stale),
+    const auto stale = SIPPLAB_TRY(
+        options_.quick ? connection_.query_int(
+                             "SELECT count(*) FROM cell LEFT JOIN cell_summary USING (case_id, run_id) "
+                             "WHERE cell_summary.results IS NOT cell.result_count",
+                             kExamining)
+                       : count_stale_summaries(connection_));
+    if (stale == 0) return Done{};
+    return add_fixable(fmt::format("{} cells whose summary is missing or differs from their results", stale),
                        "sipplab doctor --fix makes them anew from the results",
                        [this] { return rebuild_summaries(connection_); });
   }
@@ -182,40 +173,36 @@ class Examination {
   }
 
   Result<Done> unfinished_runs() {
-    auto select = Statement::prepare(
+    auto select = SIPPLAB_TRY(Statement::prepare(
         connection_,
         "SELECT uuid, writer, suite FROM run WHERE kind = 'sweep' AND status = 'running' AND origin = ''",
-        kExamining);
-    if (!select) return Unexpected{select.error()};
+        kExamining));
     std::vector<std::pair<std::string, std::string>> dead;
-    const auto read = select->for_each([&] {
-      if (!is_alive(select->text(1))) dead.emplace_back(select->text(0), select->text(2));
+    const auto read = select.for_each([&] {
+      if (!is_alive(select.text(1))) dead.emplace_back(select.text(0), select.text(2));
     });
     if (!read) return read;
     for (const auto& [uuid, suite] : dead) {
-      auto done = add_fixable(fmt::format("run {} of suite {} was killed", uuid.substr(0, kShortUuid), suite),
+      SIPPLAB_TRY(add_fixable(fmt::format("run {} of suite {} was killed", uuid.substr(0, kShortUuid), suite),
                               "its command with --resume plans the remaining cases; sipplab doctor --fix "
                               "closes it as aborted, which can "
                               "still be resumed",
-                              [this, run = uuid] { return close_run(run); });
-      if (!done) return done;
+                              [this, run = uuid] { return close_run(run); }));
     }
     return Done{};
   }
 
   Result<Done> empty_runs() {
-    const auto empty = texts(
+    const auto empty = SIPPLAB_TRY(texts(
         "SELECT uuid FROM run WHERE kind IN ('sweep', 'report') AND status <> 'running' AND excluded_reason "
         "IS NULL "
         "AND NOT EXISTS (SELECT 1 FROM cell WHERE cell.run_id = run.id) "
-        "AND NOT EXISTS (SELECT 1 FROM measurement WHERE measurement.run_id = run.id)");
-    if (!empty) return Unexpected{empty.error()};
-    for (const std::string& uuid : *empty) {
-      auto done =
+        "AND NOT EXISTS (SELECT 1 FROM measurement WHERE measurement.run_id = run.id)"));
+    for (const std::string& uuid : empty) {
+      SIPPLAB_TRY(
           add_fixable(fmt::format("run {} ended without a finished case", uuid.substr(0, kShortUuid)),
                       "sipplab doctor --fix excludes it; its command with --resume would start it again",
-                      [this, run = uuid] { return exclude(run); });
-      if (!done) return done;
+                      [this, run = uuid] { return exclude(run); }));
     }
     return Done{};
   }
@@ -229,12 +216,9 @@ class Examination {
                   uuid);
   }
   Result<Done> update(const std::string& sql, const std::string& uuid) {
-    auto transaction = sqlite::Transaction::begin(connection_);
-    if (!transaction) return Unexpected{transaction.error()};
-    auto statement = Statement::prepare(connection_, sql, "setting a run right");
-    if (!statement) return Unexpected{statement.error()};
-    if (auto done = statement->bind(uuid, utc_now()).run(); !done) return done;
-    return transaction->commit();
+    auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection_));
+    SIPPLAB_TRY(sqlite::run(connection_, sql, "setting a run right", uuid, utc_now()));
+    return transaction.commit();
   }
 
   Connection& connection_;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/core/expected.hpp"
+#include "planner/core/try.hpp"
 
 namespace sipplab::db {
 

@@ -1,16 +1,11 @@
-// UUIDs from the system's random device; processes as Linux describes them in /proc.
+// Processes as Linux describes them in /proc.
 #include "db/identity.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <array>
-#include <chrono>
-#include <cstdint>
-#include <ctime>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <sstream>
 #include <utility>
 
@@ -48,27 +43,6 @@ std::string start_time(const std::string& pid) {
 }
 
 }  // namespace
-
-std::string new_uuid() {
-  std::random_device device;
-  std::array<std::uint32_t, 4> words{};
-  for (std::uint32_t& word : words) word = device();
-  words[1] = (words[1] & 0xffff0fffU) | 0x00004000U;  // version 4
-  words[2] = (words[2] & 0x3fffffffU) | 0x80000000U;  // variant of RFC 4122
-  return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:04x}{:08x}", words[0], words[1] >> 16, words[1] & 0xffffU,
-                     words[2] >> 16, words[2] & 0xffffU, words[3]);
-}
-
-std::string utc_now() {
-  using namespace std::chrono;
-  const auto now = system_clock::now();
-  const std::time_t seconds_now = system_clock::to_time_t(now);
-  const auto ms = duration_cast<milliseconds>(now.time_since_epoch()).count() % 1000;
-  std::tm utc{};
-  gmtime_r(&seconds_now, &utc);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1,
-                     utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, ms);
-}
 
 std::string this_process() {
   // Asked for at every case, read once: a process keeps its name until it forks.

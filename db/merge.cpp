@@ -29,16 +29,14 @@ struct Reference {
 struct TableShape {
   std::string name;
   std::vector<std::string> columns;  ///< without the integer key
-  bool has_key = false;              ///< an integer key named id, which is given anew
+  bool has_key = false;              ///< an integer key named id, of which merging makes a new one
   std::vector<std::vector<std::string>> unique;
   std::vector<Reference> references;
 };
 
 Result<std::vector<std::vector<std::string>>> rows_of(Connection& connection, const std::string& sql,
                                                       int columns) {
-  auto select = Statement::prepare(connection, sql, kMerging);
-  if (!select) return Unexpected{select.error()};
-  return select->collect([columns](const Statement& row) {
+  return SIPPLAB_TRY(Statement::prepare(connection, sql, kMerging)).collect([columns](const Statement& row) {
     std::vector<std::string> texts;
     for (int i = 0; i < columns; ++i) texts.push_back(row.text(i));
     return texts;
@@ -48,54 +46,48 @@ Result<std::vector<std::vector<std::string>>> rows_of(Connection& connection, co
 Result<TableShape> shape_of(Connection& connection, const std::string& table) {
   TableShape shape;
   shape.name = table;
-  const auto columns = rows_of(
-      connection, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}') ORDER BY cid", table), 3);
-  if (!columns) return Unexpected{columns.error()};
-  for (const auto& column : *columns) {
+  const auto columns = SIPPLAB_TRY(rows_of(
+      connection, fmt::format("SELECT name, type, pk FROM pragma_table_info('{}') ORDER BY cid", table), 3));
+  for (const auto& column : columns) {
     if (column[0] == "id" && column[1] == "INTEGER" && column[2] == "1") {
       shape.has_key = true;
     } else {
       shape.columns.push_back(column[0]);
     }
   }
-  const auto indexes = rows_of(
+  const auto indexes = SIPPLAB_TRY(rows_of(
       connection,
       fmt::format(
           "SELECT name FROM pragma_index_list('{}') WHERE \"unique\" AND NOT partial ORDER BY seq DESC",
           table),
-      1);
-  if (!indexes) return Unexpected{indexes.error()};
-  for (const auto& index : *indexes) {
-    const auto parts = rows_of(
-        connection, fmt::format("SELECT name FROM pragma_index_info('{}') ORDER BY seqno", index[0]), 1);
-    if (!parts) return Unexpected{parts.error()};
+      1));
+  for (const auto& index : indexes) {
+    const auto parts = SIPPLAB_TRY(rows_of(
+        connection, fmt::format("SELECT name FROM pragma_index_info('{}') ORDER BY seqno", index[0]), 1));
     shape.unique.emplace_back();
-    for (const auto& part : *parts) shape.unique.back().push_back(part[0]);
+    for (const auto& part : parts) shape.unique.back().push_back(part[0]);
   }
-  const auto references = rows_of(connection,
-                                  fmt::format("SELECT \"from\", \"table\", ifnull(\"to\", 'id') FROM "
-                                              "pragma_foreign_key_list('{}') ORDER BY id, seq",
-                                              table),
-                                  3);
-  if (!references) return Unexpected{references.error()};
-  for (const auto& reference : *references)
+  const auto references =
+      SIPPLAB_TRY(rows_of(connection,
+                          fmt::format("SELECT \"from\", \"table\", ifnull(\"to\", 'id') FROM "
+                                      "pragma_foreign_key_list('{}') ORDER BY id, seq",
+                                      table),
+                          3));
+  for (const auto& reference : references)
     shape.references.push_back({reference[0], reference[1], reference[2]});
   return shape;
 }
 
 /// All tables, parents before children.
 Result<std::vector<TableShape>> tables_of(Connection& connection) {
-  const auto names =
+  const auto names = SIPPLAB_TRY(
       rows_of(connection,
               "SELECT name FROM main.sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite%' "
               "ORDER BY rowid",
-              1);
-  if (!names) return Unexpected{names.error()};
+              1));
   std::vector<TableShape> waiting;
-  for (const auto& name : *names) {
-    auto shape = shape_of(connection, name[0]);
-    if (!shape) return Unexpected{shape.error()};
-    waiting.push_back(std::move(*shape));
+  for (const auto& name : names) {
+    waiting.push_back(SIPPLAB_TRY(shape_of(connection, name[0])));
   }
   std::vector<TableShape> ordered;
   std::set<std::string> placed;
@@ -120,9 +112,9 @@ class Merge {
 
   Result<MergeReport> run() {
     for (const TableShape& table : tables_) {
-      if (auto done = merge_table(table); !done) return Unexpected{done.error()};
+      SIPPLAB_TRY(merge_table(table));
     }
-    if (auto done = bring_up_to_date(); !done) return Unexpected{done.error()};
+    SIPPLAB_TRY(bring_up_to_date());
     return std::move(report_);
   }
 
@@ -179,16 +171,14 @@ class Merge {
     }
     std::string condition = "true";
     if (table.name == "cell") {
-      const auto last = connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kMerging);
-      if (!last) return Unexpected{last.error()};
-      last_cell_ = *last;
+      last_cell_ = SIPPLAB_TRY(connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kMerging));
     }
     // The results of a cell come with it or are there already: millions need not be looked up.
     if (table.name == "result") condition = fmt::format("m_cell_id.new > {}", last_cell_);
     const std::string sql = fmt::format(
         "INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING", table.name,
         columns, expressions, source.from, condition, table.has_key ? " ORDER BY s.id" : "");
-    if (auto done = run(sql); !done) return done;
+    SIPPLAB_TRY(run(sql));
     const std::int64_t added = connection_.changes();
     if (added > 0) report_.added.emplace_back(table.name, added);
     return table.has_key ? map_keys(table, source) : Result<Done>{Done{}};
@@ -197,11 +187,8 @@ class Merge {
   /// Which key a row of the source has here.
   Result<Done> map_keys(const TableShape& table, const Source& source) {
     const std::string map = fmt::format("temp.\"key_{}\"", table.name);
-    if (auto done = connection_.execute(
-            fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kMerging);
-        !done) {
-      return done;
-    }
+    SIPPLAB_TRY(connection_.execute(
+        fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kMerging));
     for (const auto& key : table.unique) {
       std::string same;
       for (const std::string& column : key) {
@@ -210,12 +197,9 @@ class Merge {
                             source.expressions[static_cast<std::size_t>(at)]);
       }
       // CROSS JOIN: each row of the source looks for itself through the index.
-      if (auto done = run(fmt::format(
-              "INSERT OR IGNORE INTO {} SELECT s.id, d.id FROM {} CROSS JOIN main.\"{}\" AS d ON {}", map,
-              source.from, table.name, same));
-          !done) {
-        return done;
-      }
+      SIPPLAB_TRY(run(
+          fmt::format("INSERT OR IGNORE INTO {} SELECT s.id, d.id FROM {} CROSS JOIN main.\"{}\" AS d ON {}",
+                      map, source.from, table.name, same)));
     }
     return Done{};
   }
@@ -258,16 +242,15 @@ class Merge {
         "WHERE s.target = finding.target AND s.signature = finding.signature)",
     };
     for (const char* sql : kUpdates) {
-      if (auto done = connection_.execute(sql, kMerging); !done) return done;
+      SIPPLAB_TRY(connection_.execute(sql, kMerging));
     }
     return Done{};
   }
 
   Result<Done> run(const std::string& sql) {
-    auto statement = Statement::prepare(connection_, sql, kMerging);
-    if (!statement) return Unexpected{statement.error()};
-    if (sql.find("?1") != std::string::npos) statement->bind(origin_);
-    return statement->run();
+    auto statement = SIPPLAB_TRY(Statement::prepare(connection_, sql, kMerging));
+    if (sql.find("?1") != std::string::npos) statement.bind(origin_);
+    return statement.run();
   }
 
   Connection& connection_;
@@ -278,9 +261,7 @@ class Merge {
 };
 
 Result<Done> attach(Connection& connection, const fs::path& source) {
-  auto statement = Statement::prepare(connection, "ATTACH ? AS shard", "opening what is merged");
-  if (!statement) return Unexpected{statement.error()};
-  return statement->bind(source.string()).run();
+  return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged", source.string());
 }
 
 void detach(Connection& connection, const std::vector<TableShape>& tables) {
@@ -294,11 +275,9 @@ void detach(Connection& connection, const std::vector<TableShape>& tables) {
 
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
                                    const std::string& origin) {
-  auto transaction = sqlite::Transaction::begin(connection);
-  if (!transaction) return Unexpected{transaction.error()};
-  auto report = Merge(connection, tables, origin).run();
-  if (!report) return report;
-  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
+  auto report = SIPPLAB_TRY(Merge(connection, tables, origin).run());
+  SIPPLAB_TRY(transaction.commit());
   return report;
 }
 
@@ -319,15 +298,13 @@ Result<MergeReport> merge_into(Database& database, const fs::path& source) {
   }
   {
     // Says what is wrong with it, and brings it to this version.
-    const auto readable = Database::open_read_only(source);
-    if (!readable) return Unexpected{readable.error()};
+    const auto readable = SIPPLAB_TRY(Database::open_read_only(source));
   }
   Connection& connection = database.connection();
-  const auto tables = tables_of(connection);
-  if (!tables) return Unexpected{tables.error()};
-  if (auto done = attach(connection, source); !done) return Unexpected{done.error()};
-  auto report = merge_attached(connection, *tables, source.string());
-  detach(connection, *tables);
+  const auto tables = SIPPLAB_TRY(tables_of(connection));
+  SIPPLAB_TRY(attach(connection, source));
+  auto report = merge_attached(connection, tables, source.string());
+  detach(connection, tables);
   return report;
 }
 

@@ -30,46 +30,43 @@ Error older(const sqlite::Connection& connection, std::int64_t version, int firs
 }
 
 Result<Done> check_foreign_keys(sqlite::Connection& connection, const Migration& step) {
-  const auto orphans = connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", step.name);
-  if (!orphans) return Unexpected{orphans.error()};
-  if (*orphans == 0) return Done{};
+  const auto orphans =
+      SIPPLAB_TRY(connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", step.name));
+  if (orphans == 0) return Done{};
   return Unexpected{
       Error{ErrorKind::kInternal,
             fmt::format("{}: {} rows point to rows that are not there, expected none after migration {}",
-                        connection.name(), *orphans, step.name)}};
+                        connection.name(), orphans, step.name)}};
 }
 
 Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
-  auto transaction = sqlite::Transaction::begin(connection);
-  if (!transaction) return Unexpected{transaction.error()};
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
   // Another process may have been faster.
-  const auto version = connection.query_int("PRAGMA user_version", kReadingHeader);
-  if (!version) return Unexpected{version.error()};
-  if (*version >= step.version) return Done{};
+  const auto version = SIPPLAB_TRY(connection.query_int("PRAGMA user_version", kReadingHeader));
+  if (version >= step.version) return Done{};
 
   const std::string doing = fmt::format("applying migration {}", step.name);
-  if (auto done = connection.execute(std::string{step.sql}, doing); !done) return done;
-  if (auto done = check_foreign_keys(connection, step); !done) return done;
+  SIPPLAB_TRY(connection.execute(std::string{step.sql}, doing));
+  SIPPLAB_TRY(check_foreign_keys(connection, step));
   const std::string header =
       fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, step.version);
-  if (auto done = connection.execute(header, doing); !done) return done;
-  return transaction->commit();
+  SIPPLAB_TRY(connection.execute(header, doing));
+  return transaction.commit();
 }
 
 }  // namespace
 
 Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migration> steps) {
   // One statement, so that a schema made by another process meanwhile is seen whole.
-  auto header = sqlite::Statement::prepare(connection,
-                                           "SELECT application_id, user_version, "
-                                           "(SELECT count(*) FROM sqlite_schema) "
-                                           "FROM pragma_application_id, pragma_user_version",
-                                           kReadingHeader);
-  if (!header) return Unexpected{header.error()};
-  if (const auto row = header->step(); !row) return Unexpected{row.error()};
-  const std::int64_t application = header->integer(0);
-  const std::int64_t version = header->integer(1);
-  const std::int64_t objects = header->integer(2);
+  auto header = SIPPLAB_TRY(sqlite::Statement::prepare(connection,
+                                                       "SELECT application_id, user_version, "
+                                                       "(SELECT count(*) FROM sqlite_schema) "
+                                                       "FROM pragma_application_id, pragma_user_version",
+                                                       kReadingHeader));
+  SIPPLAB_TRY(header.step());
+  const std::int64_t application = header.integer(0);
+  const std::int64_t version = header.integer(1);
+  const std::int64_t objects = header.integer(2);
 
   SchemaState state;
   state.fresh = application == 0 && version == 0 && objects == 0;
@@ -83,19 +80,17 @@ Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migr
 }
 
 Result<Done> migrate(sqlite::Connection& connection, std::span<const Migration> steps) {
-  const auto version = connection.query_int("PRAGMA user_version", kReadingHeader);
-  if (!version) return Unexpected{version.error()};
-  if (*version >= steps.back().version) return Done{};
-  const auto enforced = connection.query_int("PRAGMA foreign_keys", kReadingHeader);
-  if (!enforced) return Unexpected{enforced.error()};
-  // A table that others refer to can be dropped and made anew without enforcement only, which
+  const auto version = SIPPLAB_TRY(connection.query_int("PRAGMA user_version", kReadingHeader));
+  if (version >= steps.back().version) return Done{};
+  const auto enforced = SIPPLAB_TRY(connection.query_int("PRAGMA foreign_keys", kReadingHeader));
+  // A table that others refer to can be dropped and rebuilt only without enforcement, which
   // cannot change within a transaction. Each step checks its result instead.
-  if (auto done = connection.execute("PRAGMA foreign_keys = OFF", "preparing migrations"); !done) return done;
+  SIPPLAB_TRY(connection.execute("PRAGMA foreign_keys = OFF", "preparing migrations"));
   Result<Done> done = Done{};
   for (const Migration& step : steps) {
-    if (done && step.version > *version) done = apply(connection, step);
+    if (done && step.version > version) done = apply(connection, step);
   }
-  if (*enforced == 0) return done;
+  if (enforced == 0) return done;
   const auto restored = connection.execute("PRAGMA foreign_keys = ON", "ending migrations");
   return done ? restored : done;
 }

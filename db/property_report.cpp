@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "db/aligned.hpp"
+#include "db/json_text.hpp"
 #include "db/property_runs.hpp"
 
 namespace sipplab::db {
@@ -96,7 +97,7 @@ std::string format_property_report(const PropertyReport& report, OutputFormat fo
   if (format == OutputFormat::kTable) return for_a_person(report);
   const Json json = json_of(report);
   if (format == OutputFormat::kCsv) return format_csv(table_of(json));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace sipplab::db

@@ -20,9 +20,7 @@ Result<Done> forget_crash(sqlite::Connection& connection, const PropertyRun& run
   for (const char* sql :
        {"DELETE FROM property_run WHERE run_id = (SELECT id FROM run WHERE uuid = ? AND outcome = 'crashed')",
         "DELETE FROM run WHERE uuid = ? AND outcome = 'crashed'"}) {
-    auto forget = Statement::prepare(connection, sql, "replacing a property run");
-    if (!forget) return Unexpected{forget.error()};
-    if (auto done = forget->bind(run.uuid).run(); !done) return done;
+    SIPPLAB_TRY(sqlite::run(connection, sql, "replacing a property run", run.uuid));
   }
   return Done{};
 }
@@ -33,40 +31,37 @@ Result<PropertyRecorded> record_property_runs(Database& database, const RunOrigi
                                               const std::vector<PropertyRun>& runs,
                                               const std::string& mutant) {
   auto& connection = database.connection();
-  auto transaction = sqlite::Transaction::begin(connection);
-  if (!transaction) return Unexpected{transaction.error()};
-  auto insert_class = Statement::prepare(
-      connection, "INSERT INTO property_class (property_run_id, class, cases) VALUES (?, ?, ?)",
-      "writing the classes of a property run");
-  if (!insert_class) return Unexpected{insert_class.error()};
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
 
   PropertyRecorded recorded;
   for (const PropertyRun& run : runs) {
-    if (auto done = forget_crash(connection, run); !done) return Unexpected{done.error()};
-    const auto run_id = insert_run(connection, origin, finished_run("property", run.room, run.status, run));
-    if (!run_id) return Unexpected{run_id.error()};
-    if (!*run_id) {
+    SIPPLAB_TRY(forget_crash(connection, run));
+    const auto run_id =
+        SIPPLAB_TRY(insert_run(connection, origin, finished_run("property", run.room, run.status, run)));
+    if (!run_id) {
       ++recorded.known;
       continue;
     }
     ++recorded.added;
-    const auto id = insert_row(connection, "property_run", "writing a property run", [&](auto visit) {
-      visit("run_id", *run_id);
-      visit("mutant", mutant);
-      PropertyRun::columns(run, visit);
-    });
-    if (!id) return Unexpected{id.error()};
+    const auto id =
+        SIPPLAB_TRY(insert_row(connection, "property_run", "writing a property run", [&](auto visit) {
+          visit("run_id", run_id);
+          visit("mutant", mutant);
+          PropertyRun::columns(run, visit);
+        }));
     for (const auto& [name, cases] : run.classes) {
-      if (auto done = insert_class->bind(*id, name, cases).run(); !done) return Unexpected{done.error()};
+      SIPPLAB_TRY(sqlite::run(connection,
+                              "INSERT INTO property_class (property_run_id, class, cases) VALUES (?, ?, ?)",
+                              "writing the classes of a property run", id, name, cases));
     }
   }
-  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(transaction.commit());
   return recorded;
 }
 
 Result<Table> list_property_runs(Database& database, const PropertyFilter& filter) {
   // Seeds have 64 bits without a sign, as RC_PARAMS takes them.
-  auto select = Statement::prepare(
+  return rest_of(SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       fmt::format("SELECT id, started_utc, room, title, mutant, status, cases, discards, shrinks, "
                   "wall_time_s, printf('%llu', seed) AS seed, case_robots, case_cells FROM {} "
@@ -74,14 +69,11 @@ Result<Table> list_property_runs(Database& database, const PropertyFilter& filte
                   "{} LIMIT ?3",
                   filter.every_run ? "v_property_runs" : "v_property_latest",
                   filter.every_run ? "started_utc DESC, id DESC" : "room, title"),
-      kReadingProperties);
-  if (!select) return Unexpected{select.error()};
-  select->bind(filter.room, filter.failed, sql_limit(filter.limit));
-  return rest_of(*select);
+      kReadingProperties, filter.room, filter.failed, sql_limit(filter.limit))));
 }
 
 Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       "SELECT property_run.id AS id, suite AS room, outcome AS status, commit_.hash AS commit_hash, dirty, "
       "host, "
@@ -89,30 +81,25 @@ Result<PropertyReport> show_property_run(Database& database, std::int64_t id) {
       "FROM property_run JOIN run ON run.id = run_id JOIN machine ON machine.id = machine_id "
       "JOIN build ON build.id = build_id LEFT JOIN commit_ ON commit_.id = commit_id WHERE property_run.id = "
       "?",
-      kReadingProperties);
-  if (!select) return Unexpected{select.error()};
-  const auto row = select->bind(id).step();
-  if (!row) return Unexpected{row.error()};
-  if (!row.value()) {
+      kReadingProperties, id));
+  const auto row = SIPPLAB_TRY(select.step());
+  if (!row) {
     return Unexpected{Error{ErrorKind::kNotFound,
                             fmt::format("{}: no property run {}, expected one that `sipplab property list "
                                         "--all` shows",
                                         database.path().string(), id)}};
   }
   PropertyReport report;
-  read_row(*select, [&report](auto visit) {
+  read_row(select, [&report](auto visit) {
     PropertyReport::columns(report, visit);
     PropertyRun::origin_columns(report.run, visit);
     PropertyRun::columns(report.run, visit);
   });
 
-  auto classes = Statement::prepare(database.connection(),
-                                    "SELECT class, cases FROM property_class WHERE property_run_id = ?",
-                                    kReadingProperties);
-  if (!classes) return Unexpected{classes.error()};
-  classes->bind(id);
-  const auto done = classes->for_each([&] { report.run.classes[classes->text(0)] = classes->integer(1); });
-  if (!done) return Unexpected{done.error()};
+  auto classes = SIPPLAB_TRY(Statement::prepare(
+      database.connection(), "SELECT class, cases FROM property_class WHERE property_run_id = ?",
+      kReadingProperties, id));
+  SIPPLAB_TRY(classes.for_each([&] { report.run.classes[classes.text(0)] = classes.integer(1); }));
   return report;
 }
 

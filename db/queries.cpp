@@ -33,21 +33,20 @@ RunSummary read_run(const Statement& row) {
 
 CellSummary read_cell(const Statement& row) {
   CellSummary cell;
-  read_row(row, [&cell](auto visit) { CellSummary::columns(cell, visit); });
+  read_row(row, [&cell](auto visit) { CellSummary::measures(cell, visit); });
   cell.parameters = read_case(row, row.column("id"));
   return cell;
 }
 
 Result<std::vector<CellSummary>> cells_of(Database& database, const std::string& uuid) {
-  auto select = Statement::prepare(database.connection(),
-                                   "SELECT cell.*, case_.* FROM v_run_cells AS cell JOIN case_ ON case_.id = "
-                                   "cell.case_id WHERE cell.run = ? "
-                                   "ORDER BY cell.environment, cell.planner, cell.initial_order, "
-                                   "cell.reschedule, cell.ssi_s, cell.robots, id",
-                                   "reading the cells of a run");
-  if (!select) return Unexpected{select.error()};
-  select->bind(uuid);
-  return select->collect(read_cell);
+  return SIPPLAB_TRY(
+             Statement::prepare(database.connection(),
+                                "SELECT cell.*, case_.* FROM v_run_cells AS cell JOIN case_ ON case_.id = "
+                                "cell.case_id WHERE cell.run = ? "
+                                "ORDER BY cell.environment, cell.planner, cell.initial_order, "
+                                "cell.reschedule, cell.ssi_s, cell.robots, id",
+                                "reading the cells of a run", uuid))
+      .collect(read_cell);
 }
 
 /// What the view of its kind says of a run that has no cells.
@@ -59,29 +58,21 @@ Result<Table> details_of(Database& database, const RunSummary& run) {
                      : kind == "gate"     ? "v_gate_cells WHERE gate_run = ?"
                                           : nullptr;
   if (from == nullptr) return Table{};
-  auto select =
-      Statement::prepare(database.connection(), fmt::format("SELECT * FROM {}", from), "reading a run");
-  if (!select) return Unexpected{select.error()};
-  select->bind(run.uuid);
-  return rest_of(*select);
+  return rest_of(SIPPLAB_TRY(Statement::prepare(database.connection(), fmt::format("SELECT * FROM {}", from),
+                                                "reading a run", run.uuid)));
 }
 
 Result<Done> set_exclusion(Database& database, std::string_view run,
                            const std::optional<std::string>& reason) {
-  const auto uuid = resolve_run(database, run);
-  if (!uuid) return Unexpected{uuid.error()};
-  auto transaction = sqlite::Transaction::begin(database.connection());
-  if (!transaction) return Unexpected{transaction.error()};
-  auto update =
-      Statement::prepare(database.connection(),
-                         "UPDATE run SET excluded_reason = ?1, "
-                         "excluded_utc = CASE WHEN ?1 IS NULL THEN NULL ELSE ?2 END, "
-                         "included_utc = CASE WHEN ?1 IS NULL AND excluded_reason IS NOT NULL THEN ?2 "
-                         "ELSE included_utc END WHERE uuid = ?3",
-                         "excluding or including a run");
-  if (!update) return Unexpected{update.error()};
-  if (auto done = update->bind(reason, utc_now(), *uuid).run(); !done) return done;
-  return transaction->commit();
+  const auto uuid = SIPPLAB_TRY(resolve_run(database, run));
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(database.connection()));
+  SIPPLAB_TRY(sqlite::run(database.connection(),
+                          "UPDATE run SET excluded_reason = ?1, "
+                          "excluded_utc = CASE WHEN ?1 IS NULL THEN NULL ELSE ?2 END, "
+                          "included_utc = CASE WHEN ?1 IS NULL AND excluded_reason IS NOT NULL THEN ?2 "
+                          "ELSE included_utc END WHERE uuid = ?3",
+                          "excluding or including a run", reason, utc_now(), uuid));
+  return transaction.commit();
 }
 
 bool is_uuid_text(std::string_view text) {
@@ -94,17 +85,17 @@ bool is_uuid_text(std::string_view text) {
 
 Result<std::vector<RunSummary>> list_runs(Database& database, const RunFilter& filter) {
   // LIMIT inside, on the plain table: counts are then made for the runs that are shown.
-  auto select = Statement::prepare(
-      database.connection(),
-      fmt::format(
-          "{}WHERE run IN (SELECT uuid FROM run WHERE (?1 IS NULL OR suite = ?1) AND (?2 OR excluded_reason "
-          "IS NULL) AND (?4 = 'all' OR kind = ?4 OR (?4 IS NULL AND {})) "
-          "ORDER BY started_utc DESC, id DESC LIMIT ?3) ORDER BY started_utc DESC, run DESC",
-          kSelectRuns, kComparable),
-      kListing);
-  if (!select) return Unexpected{select.error()};
-  select->bind(filter.suite, filter.include_excluded, sql_limit(filter.limit), filter.kind);
-  return select->collect(read_run);
+  return SIPPLAB_TRY(
+             Statement::prepare(
+                 database.connection(),
+                 fmt::format(
+                     "{}WHERE run IN (SELECT uuid FROM run WHERE (?1 IS NULL OR suite = ?1) AND (?2 OR "
+                     "excluded_reason "
+                     "IS NULL) AND (?4 = 'all' OR kind = ?4 OR (?4 IS NULL AND {})) "
+                     "ORDER BY started_utc DESC, id DESC LIMIT ?3) ORDER BY started_utc DESC, run DESC",
+                     kSelectRuns, kComparable),
+                 kListing, filter.suite, filter.include_excluded, sql_limit(filter.limit), filter.kind))
+      .collect(read_run);
 }
 
 Result<std::string> resolve_run(Database& database, std::string_view text) {
@@ -130,15 +121,11 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
   std::vector<std::string> found;
   // Checks of properties are many: digits that fit one sweep name it, whatever else they fit.
   for (const char* kinds : {kComparable, "true"}) {
-    auto select = Statement::prepare(
+    auto select = SIPPLAB_TRY(Statement::prepare(
         database.connection(),
         fmt::format("SELECT uuid FROM run WHERE uuid LIKE ? || '%' AND {} ORDER BY uuid LIMIT 2", kinds),
-        kListing);
-    if (!select) return Unexpected{select.error()};
-    select->bind(text);
-    auto uuids = select->collect([](const Statement& row) { return row.text(0); });
-    if (!uuids) return Unexpected{uuids.error()};
-    found = std::move(*uuids);
+        kListing, text));
+    found = SIPPLAB_TRY(select.collect([](const Statement& row) { return row.text(0); }));
     if (!found.empty()) break;
   }
   if (found.empty()) {
@@ -154,34 +141,26 @@ Result<std::string> resolve_run(Database& database, std::string_view text) {
 }
 
 Result<std::optional<std::string>> run_before(Database& database, const std::string& uuid) {
-  auto select =
+  auto select = SIPPLAB_TRY(
       Statement::prepare(database.connection(),
                          "SELECT other.uuid FROM run JOIN run AS other ON other.kind = run.kind AND "
                          "other.suite = run.suite AND other.excluded_reason IS NULL "
                          "AND (other.started_utc, other.id) < (run.started_utc, run.id) "
                          "WHERE run.uuid = ? ORDER BY other.started_utc DESC, other.id DESC LIMIT 1",
-                         "looking for the run before");
-  if (!select) return Unexpected{select.error()};
-  const auto row = select->bind(uuid).step();
-  if (!row) return Unexpected{row.error()};
-  if (!row.value()) return std::optional<std::string>{};
-  return std::optional<std::string>{select->text(0)};
+                         "looking for the run before", uuid));
+  const auto row = SIPPLAB_TRY(select.step());
+  if (!row) return std::optional<std::string>{};
+  return std::optional<std::string>{select.text(0)};
 }
 
 Result<RunReport> show_run(Database& database, std::string_view run) {
-  const auto uuid = resolve_run(database, run);
-  if (!uuid) return Unexpected{uuid.error()};
-  auto select =
-      Statement::prepare(database.connection(), std::string{kSelectRuns} + "WHERE run = ?", "reading a run");
-  if (!select) return Unexpected{select.error()};
-  select->bind(*uuid);
-  const auto runs = select->collect(read_run);
-  if (!runs) return Unexpected{runs.error()};
-  auto cells = cells_of(database, *uuid);
-  if (!cells) return Unexpected{cells.error()};
-  auto details = details_of(database, runs->front());
-  if (!details) return Unexpected{details.error()};
-  return RunReport{runs->front(), std::move(*cells), std::move(*details)};
+  const auto uuid = SIPPLAB_TRY(resolve_run(database, run));
+  auto select = SIPPLAB_TRY(Statement::prepare(
+      database.connection(), std::string{kSelectRuns} + "WHERE run = ?", "reading a run", uuid));
+  const auto runs = SIPPLAB_TRY(select.collect(read_run));
+  auto cells = SIPPLAB_TRY(cells_of(database, uuid));
+  auto details = SIPPLAB_TRY(details_of(database, runs.front()));
+  return RunReport{runs.front(), std::move(cells), std::move(details)};
 }
 
 Result<Done> exclude_run(Database& database, std::string_view run, const std::string& reason) {
@@ -194,13 +173,12 @@ Result<Done> exclude_run(Database& database, std::string_view run, const std::st
 }
 
 Result<Done> include_run(Database& database, std::string_view run) {
-  const auto report = show_run(database, run);
-  if (!report) return Unexpected{report.error()};
-  if (!report->run.excluded_reason) {
+  const auto report = SIPPLAB_TRY(show_run(database, run));
+  if (!report.run.excluded_reason) {
     return Unexpected{
         Error{ErrorKind::kBadInput,
               fmt::format("{}: run {} is not excluded, expected one that is (`sipplab runs --all`)",
-                          database.path().string(), report->run.uuid)}};
+                          database.path().string(), report.run.uuid)}};
   }
   return set_exclusion(database, run, std::nullopt);
 }

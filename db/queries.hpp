@@ -70,14 +70,7 @@ struct RunSummary {
 /// One row of v_run_cells: all instances of one case in one run. Rates are 0..1;
 /// makespan and flowtime are over solved instances, and absent when there is none.
 struct CellSummary {
-  std::string environment;
-  std::int64_t robots = 0;
-  double ssi_s = 0;
-  std::string reschedule;
-  std::string order;
-  std::string planner;
-  bool any_angle = true;
-  std::int64_t connectedness = 0;
+  CaseInfo parameters;
   std::int64_t results = 0;
   std::int64_t solved = 0;
   std::int64_t limited = 0;
@@ -91,18 +84,21 @@ struct CellSummary {
   std::optional<double> median_flowtime_s;
   std::optional<double> mean_tries;
   std::optional<double> mean_expansions;
-  CaseInfo parameters;  ///< with all options
 
   template <class Self, class Visit>
   static void columns(Self&& self, Visit&& visit) {
-    visit("environment", self.environment);
-    visit("robots", self.robots);
-    visit("ssi_s", self.ssi_s);
-    visit("reschedule", self.reschedule);
-    visit("initial_order", self.order);
-    visit("planner", self.planner);
-    visit("any_angle", self.any_angle);
-    visit("connectedness", self.connectedness);
+    const CaseInfo& of = self.parameters;
+    visit("environment", of.environment);
+    visit("robots", of.robots);
+    for (const char* column : {"ssi_s", "reschedule", "initial_order"}) visit(column, of.option(column));
+    visit("planner", of.planner);
+    for (const char* column : {"any_angle", "connectedness"}) visit(column, of.option(column));
+    measures(self, visit);
+  }
+
+  /// Those that are not of the case.
+  template <class Self, class Visit>
+  static void measures(Self&& self, Visit&& visit) {
     visit("results", self.results);
     visit("solved", self.solved);
     visit("limited", self.limited);

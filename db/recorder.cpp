@@ -51,7 +51,7 @@ Result<std::optional<std::string>> find_other_command(Database& database, const 
 }
 
 Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       "SELECT run.uuid, run.started_utc, run.status, run.writer, "
       "  (SELECT count(*) FROM cell WHERE cell.run_id = run.id) "
@@ -62,44 +62,39 @@ Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const
       "  AND build.binary_hash = ? AND build.compiler = ? AND build.compiler_version = ? AND build.flags = ? "
       "  AND build.build_type = ? AND build.assertions = ? AND build.sanitizers = ? AND build.dirty = ? "
       "ORDER BY run.started_utc DESC, run.id DESC",
-      "looking for a run to resume");
-  if (!select) return Unexpected{select.error()};
+      "looking for a run to resume"));
   const BuildInfo& build = info.build;
-  select->bind(info.suite, info.options, fingerprint(info.machine), build.binary_hash, build.compiler,
-               build.compiler_version, build.flags, build.build_type, build.assertions, build.sanitizers,
-               build.dirty);
+  select.bind(info.suite, info.options, fingerprint(info.machine), build.binary_hash, build.compiler,
+              build.compiler_version, build.flags, build.build_type, build.assertions, build.sanitizers,
+              build.dirty);
   for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) return std::optional<ResumableRun>{};
-    const bool running = select->text(2) == name(RunStatus::kRunning);
-    if (running && is_alive(select->text(3))) continue;
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) return std::optional<ResumableRun>{};
+    const bool running = select.text(2) == name(RunStatus::kRunning);
+    if (running && is_alive(select.text(3))) continue;
     ResumableRun run;
-    run.uuid = select->text(0);
-    run.started_utc = select->text(1);
+    run.uuid = select.text(0);
+    run.started_utc = select.text(1);
     run.status = running ? RunStatus::kRunning : RunStatus::kAborted;
-    run.finished_cases = static_cast<std::size_t>(select->integer(4));
+    run.finished_cases = static_cast<std::size_t>(select.integer(4));
     return std::optional<ResumableRun>{run};
   }
 }
 
 Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::string& run_uuid) {
-  auto select = Statement::prepare(database.connection(),
-                                   "SELECT case_.* FROM run JOIN cell ON cell.run_id = run.id "
-                                   "JOIN case_ ON case_.id = cell.case_id "
-                                   "WHERE run.uuid = ? ORDER BY cell.id",
-                                   "reading finished cases");
-  if (!select) return Unexpected{select.error()};
-  select->bind(run_uuid);
-  return select->collect([](const Statement& row) { return read_case(row, 0); });
+  return SIPPLAB_TRY(Statement::prepare(database.connection(),
+                                        "SELECT case_.* FROM run JOIN cell ON cell.run_id = run.id "
+                                        "JOIN case_ ON case_.id = cell.case_id "
+                                        "WHERE run.uuid = ? ORDER BY cell.id",
+                                        "reading finished cases", run_uuid))
+      .collect([](const Statement& row) { return read_case(row, 0); });
 }
 
 RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t run_id)
     : database_(std::move(database)), run_uuid_(std::move(run_uuid)), run_id_(run_id) {}
 
 Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
-  auto transaction = Transaction::begin(database.connection());
-  if (!transaction) return Unexpected{transaction.error()};
+  auto transaction = SIPPLAB_TRY(Transaction::begin(database.connection()));
   RunRow run;
   run.uuid = new_uuid();
   run.kind = "sweep";
@@ -111,51 +106,44 @@ Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
   run.command_line = info.command_line;
   run.options = info.options;
   run.writer = this_process();
-  const auto id = insert_run(database.connection(), info, run);
-  if (!id) return Unexpected{id.error()};
-  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
-  return RunRecorder{std::move(database), run.uuid, **id};
+  const auto id = SIPPLAB_TRY(insert_run(database.connection(), info, run));
+  SIPPLAB_TRY(transaction.commit());
+  return RunRecorder{std::move(database), run.uuid, *id};
 }
 
 Result<RunRecorder> RunRecorder::resume(Database database, const std::string& run_uuid) {
-  auto transaction = Transaction::begin(database.connection());
-  if (!transaction) return Unexpected{transaction.error()};
+  auto transaction = SIPPLAB_TRY(Transaction::begin(database.connection()));
   std::int64_t id = 0;
   {
-    auto select = Statement::prepare(database.connection(),
-                                     "SELECT id, status, writer, excluded_reason FROM run WHERE uuid = ?",
-                                     "reading the run to resume");
-    if (!select) return Unexpected{select.error()};
-    const auto row = select->bind(run_uuid).step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) {
+    auto select = SIPPLAB_TRY(Statement::prepare(
+        database.connection(), "SELECT id, status, writer, excluded_reason FROM run WHERE uuid = ?",
+        "reading the run to resume", run_uuid));
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) {
       return Unexpected{Error{ErrorKind::kNotFound, fmt::format("{}: no run {}, expected one to resume",
                                                                 database.path().string(), run_uuid)}};
     }
-    const std::string status = select->text(1);
-    const std::string writer = select->text(2);
-    if (status == name(RunStatus::kFinished) || !select->is_null(3)) {
+    const std::string status = select.text(1);
+    const std::string writer = select.text(2);
+    if (status == name(RunStatus::kFinished) || !select.is_null(3)) {
       return Unexpected{
           bad_input(database, fmt::format("run {} is {}, expected one that ended early", run_uuid,
-                                          select->is_null(3) ? "finished" : "excluded"))};
+                                          select.is_null(3) ? "finished" : "excluded"))};
     }
     if (status == name(RunStatus::kRunning) && writer != this_process() && is_alive(writer)) {
       return Unexpected{bad_input(
           database, fmt::format("run {} is being written, expected its process to have ended", run_uuid))};
     }
-    id = select->integer(0);
+    id = select.integer(0);
   }
-  auto update = Statement::prepare(
-      database.connection(), "UPDATE run SET status = 'running', ended_utc = NULL, writer = ? WHERE id = ?",
-      "taking up the run");
-  if (!update) return Unexpected{update.error()};
-  if (auto done = update->bind(this_process(), id).run(); !done) return Unexpected{done.error()};
-  auto finished = finished_cases(database, run_uuid);
-  if (!finished) return Unexpected{finished.error()};
-  if (auto done = transaction->commit(); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(sqlite::run(database.connection(),
+                          "UPDATE run SET status = 'running', ended_utc = NULL, writer = ? WHERE id = ?",
+                          "taking up the run", this_process(), id));
+  auto finished = SIPPLAB_TRY(finished_cases(database, run_uuid));
+  SIPPLAB_TRY(transaction.commit());
 
   RunRecorder recorder{std::move(database), run_uuid, id};
-  recorder.finished_ = std::move(*finished);
+  recorder.finished_ = std::move(finished);
   return recorder;
 }
 
@@ -178,8 +166,7 @@ Result<Done> RunRecorder::commit_case(const CaseInfo& parameters) {
   const auto found = std::find_if(buffered_.begin(), buffered_.end(),
                                   [&](const BufferedCase& buffered) { return buffered.first == parameters; });
   const std::vector<BufferedResult> none;
-  auto done = write_case(parameters, found == buffered_.end() ? none : found->second);
-  if (!done) return done;
+  SIPPLAB_TRY(write_case(parameters, found == buffered_.end() ? none : found->second));
   discard_case(parameters);
   finished_.push_back(parameters);
   return Done{};
@@ -198,81 +185,73 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
     return Unexpected{bad_input(database_, "NaN in a result, expected a number")};
   }
   auto& connection = database_.connection();
-  auto transaction = Transaction::begin(connection);
-  if (!transaction) return Unexpected{transaction.error()};
-  if (auto done = check_writer(); !done) return done;
-  const auto case_key = case_id(connection, parameters);
-  if (!case_key) return Unexpected{case_key.error()};
-  auto insert = Statement::prepare(
+  auto transaction = SIPPLAB_TRY(Transaction::begin(connection));
+  SIPPLAB_TRY(check_writer());
+  const auto case_key = SIPPLAB_TRY(case_id(connection, parameters));
+  SIPPLAB_TRY(sqlite::run(
       connection, "INSERT INTO cell (run_id, case_id, finished_utc, result_count) VALUES (?, ?, ?, ?)",
-      "writing a finished case");
-  if (!insert) return Unexpected{insert.error()};
-  insert->bind(run_id_, *case_key, utc_now(), static_cast<std::int64_t>(results.size()));
-  if (auto done = insert->run(); !done) return done;
+      "writing a finished case", run_id_, case_key, utc_now(), static_cast<std::int64_t>(results.size())));
   const std::int64_t cell_id = connection.last_insert_rowid();
-  if (auto done = write_results(cell_id, results); !done) return done;
-  auto summariser = CellSummariser::prepare(connection);
-  if (!summariser) return Unexpected{summariser.error()};
+  SIPPLAB_TRY(write_results(cell_id, results));
+  auto summariser = SIPPLAB_TRY(CellSummariser::prepare(connection));
   std::vector<const ResultRow*> rows;
   for (const BufferedResult& result : results) rows.push_back(&result.row);
-  if (auto done = summariser->summarise(cell_id, medians_of(rows)); !done) return done;
-  return transaction->commit();
+  SIPPLAB_TRY(summariser.summarise(cell_id, medians_of(rows)));
+  return transaction.commit();
 }
 
 Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results) {
-  auto insert = Statement::prepare(
+  auto insert = SIPPLAB_TRY(Statement::prepare(
       database_.connection(),
       "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
       "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
       "peak_memory_bytes, "
       "limit_struck, message, made_by, ssi_kept_s, instructions) "
       "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-      "writing the results of a case");
-  if (!insert) return Unexpected{insert.error()};
-  auto keys = InstanceKeys::prepare(database_.connection());
-  if (!keys) return Unexpected{keys.error()};
+      "writing the results of a case"));
+  auto keys = SIPPLAB_TRY(InstanceKeys::prepare(database_.connection()));
   for (const auto& [instance, row] : results) {
-    const auto instance_key = keys->key(instance);
-    if (!instance_key) return Unexpected{instance_key.error()};
+    const auto instance_key = SIPPLAB_TRY(keys.key(instance));
     std::optional<std::int64_t> plan_hash;
     if (row.plan_hash) plan_hash = to_bits(*row.plan_hash);
-    insert->bind(cell_id, *instance_key, row.position, row.repetition, static_cast<int>(row.status),
-                 row.planning_time_ns, row.makespan_s, row.flowtime_s, to_count(row.tries),
-                 to_count(row.expansions), to_count(row.generations), plan_hash, row.valid, row.violations,
-                 row.min_clearance_cells, row.peak_memory_bytes, null_if_empty(row.limit),
-                 null_if_empty(row.message), null_if_empty(row.made_by), row.ssi_kept_s, row.instructions);
-    if (auto done = insert->run(); !done) return done;
+    SIPPLAB_TRY(insert
+                    .bind(cell_id, instance_key, row.position, row.repetition, static_cast<int>(row.status),
+                          row.planning_time_ns, row.makespan_s, row.flowtime_s, to_count(row.tries),
+                          to_count(row.expansions), to_count(row.generations), plan_hash, row.valid,
+                          row.violations, row.min_clearance_cells, row.peak_memory_bytes,
+                          null_if_empty(row.limit), null_if_empty(row.message), null_if_empty(row.made_by),
+                          row.ssi_kept_s, row.instructions)
+                    .run());
     if (row.progress.empty()) continue;
-    if (auto done = write_progress(cell_id, *instance_key, row); !done) return done;
+    SIPPLAB_TRY(write_progress(cell_id, instance_key, row));
   }
   return Done{};
 }
 
 Result<Done> RunRecorder::write_progress(std::int64_t cell_id, std::int64_t instance_id,
                                          const ResultRow& row) {
-  auto insert = Statement::prepare(
+  auto insert = SIPPLAB_TRY(Statement::prepare(
       database_.connection(),
       "INSERT INTO progress (cell_id, instance_id, position, repetition, step, iteration, elapsed_ns, "
       "flowtime_s, makespan_s, flowtime_bound_s, makespan_bound_s) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-      "writing how a plan got better");
-  if (!insert) return Unexpected{insert.error()};
+      "writing how a plan got better"));
   std::int64_t step = 0;
   for (const ProgressRow& point : row.progress) {
-    insert->bind(cell_id, instance_id, row.position, row.repetition, step++, point.iteration,
-                 point.elapsed_ns, point.flowtime_s, point.makespan_s, point.flowtime_bound_s,
-                 point.makespan_bound_s);
-    if (auto done = insert->run(); !done) return done;
+    SIPPLAB_TRY(insert
+                    .bind(cell_id, instance_id, row.position, row.repetition, step++, point.iteration,
+                          point.elapsed_ns, point.flowtime_s, point.makespan_s, point.flowtime_bound_s,
+                          point.makespan_bound_s)
+                    .run());
   }
   return Done{};
 }
 
 Result<Done> RunRecorder::check_writer() {
-  auto select = Statement::prepare(database_.connection(), "SELECT writer FROM run WHERE id = ? AND uuid = ?",
-                                   "checking that the run is still ours");
-  if (!select) return Unexpected{select.error()};
-  const auto row = select->bind(run_id_, run_uuid_).step();
-  if (!row) return Unexpected{row.error()};
-  if (!row.value() || select->text(0) != this_process()) {
+  auto select = SIPPLAB_TRY(Statement::prepare(database_.connection(),
+                                               "SELECT writer FROM run WHERE id = ? AND uuid = ?",
+                                               "checking that the run is still ours", run_id_, run_uuid_));
+  const auto row = SIPPLAB_TRY(select.step());
+  if (!row || select.text(0) != this_process()) {
     return Unexpected{bad_input(
         database_,
         fmt::format("run {} was taken over by another process, expected to be its writer", run_uuid_))};
@@ -284,15 +263,12 @@ Result<Done> RunRecorder::finish(RunStatus status) {
   if (status == RunStatus::kRunning) {
     return Unexpected{bad_input(database_, "a run cannot end as running, expected finished or aborted")};
   }
-  auto transaction = Transaction::begin(database_.connection());
-  if (!transaction) return Unexpected{transaction.error()};
-  if (auto done = check_writer(); !done) return done;
-  auto update = Statement::prepare(
-      database_.connection(), "UPDATE run SET status = ?, ended_utc = ? WHERE id = ?", "closing the run");
-  if (!update) return Unexpected{update.error()};
-  if (auto done = update->bind(std::string{name(status)}, utc_now(), run_id_).run(); !done) return done;
+  auto transaction = SIPPLAB_TRY(Transaction::begin(database_.connection()));
+  SIPPLAB_TRY(check_writer());
+  SIPPLAB_TRY(sqlite::run(database_.connection(), "UPDATE run SET status = ?, ended_utc = ? WHERE id = ?",
+                          "closing the run", std::string{name(status)}, utc_now(), run_id_));
   buffered_.clear();
-  return transaction->commit();
+  return transaction.commit();
 }
 
 }  // namespace sipplab::db

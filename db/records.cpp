@@ -21,29 +21,13 @@ std::string fingerprint(const MachineInfo& machine) {
 }
 
 std::string_view name(ResultStatus status) {
-  switch (status) {
-    case ResultStatus::kSolved:
-      return "solved";
-    case ResultStatus::kFailed:
-      return "failed";
-    case ResultStatus::kLimit:
-      return "limit";
-    case ResultStatus::kInvalid:
-      return "invalid";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"solved", "failed", "limit", "invalid"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 std::string_view name(RunStatus status) {
-  switch (status) {
-    case RunStatus::kRunning:
-      return "running";
-    case RunStatus::kFinished:
-      return "finished";
-    case RunStatus::kAborted:
-      return "aborted";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"running", "finished", "aborted"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 }  // namespace sipplab::db

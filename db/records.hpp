@@ -71,7 +71,7 @@ struct RunInfo : RunOrigin {
   std::string suite;
   std::string shard;  ///< "2/8": the second of eight parts of the suite; empty for all of it
   std::string command_line;
-  /// What must agree, besides suite, build and machine, for a run to be resumed:
+  /// What must agree, in addition to suite, build and machine, for a run to be resumed:
   /// a canonical text of the options that change results, such as
   /// "count=50 seed=1 repetitions=1 instances=generated".
   std::string options;
@@ -90,13 +90,31 @@ struct CaseInfo {
   std::string planner;
   double radius_cells = 0.5;     ///< 0: mixed, as each instance says
   double speed_cells_per_s = 1;  ///< 0: mixed, as each instance says
-  /// Of the planner, by column: an integer (1 for yes), a real or a text.
+  /// Of the planner, by column: an integer (1 for yes), a finite real or a text. One that has no column in
+  /// the schema is here only if it differs from its default.
   std::map<std::string, Value, std::less<>> options;
 
-  /// REQUIRES: there is such a column, with a value of this kind.
-  const Value& option(std::string_view column) const { return options.find(column)->second; }
+  /// NULL if there is no such column.
+  const Value& option(std::string_view column) const {
+    static const Value kNone = Null{};
+    const auto found = options.find(column);
+    return found == options.end() ? kNone : found->second;
+  }
+  /// REQUIRES of both: there is such a column, with a value of this kind.
   double real(std::string_view column) const { return std::get<double>(option(column)); }
   const std::string& text(std::string_view column) const { return std::get<std::string>(option(column)); }
+
+  /// Those that are no option.
+  template <class Self, class Visit>
+  static void columns(Self& self, Visit&& visit) {
+    visit("environment", self.environment);
+    visit("map_spec", self.map_spec);
+    visit("instance_set", self.instance_set);
+    visit("robots", self.robots);
+    visit("planner", self.planner);
+    visit("radius_cells", self.radius_cells);
+    visit("speed_cells_per_s", self.speed_cells_per_s);
+  }
 
   friend bool operator==(const CaseInfo&, const CaseInfo&) = default;
 };

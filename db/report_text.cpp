@@ -6,6 +6,7 @@
 
 #include "db/aligned.hpp"
 #include "db/columns.hpp"
+#include "db/json_text.hpp"
 #include "db/queries.hpp"
 
 namespace sipplab::db {
@@ -82,8 +83,9 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const CellSummary& cell : cells) {
-    rows.push_back({escaped(cell.environment), escaped(cell.planner), escaped(cell.order),
-                    escaped(cell.reschedule), ssi_text(cell.ssi_s), fmt::format("{}", cell.robots),
+    const CaseInfo& of = cell.parameters;
+    rows.push_back({escaped(of.environment), escaped(of.planner), escaped(of.text("initial_order")),
+                    escaped(of.text("reschedule")), ssi_text(of.real("ssi_s")), std::to_string(of.robots),
                     fmt::format("{}/{}", cell.solved, cell.results), rounded(cell.success_rate, 2),
                     duration(cell.mean_planning_time_s), duration(cell.median_planning_time_s),
                     rounded(cell.mean_makespan_s, 2), rounded(cell.mean_flowtime_s, 2),
@@ -147,7 +149,7 @@ std::string format_run_report(const RunReport& report, OutputFormat format) {
       document["run"] = Json::parse(format_json(table_of(std::vector{report.run}))).front();
       document[sweep ? "cells" : "details"] =
           Json::parse(format_json(sweep ? table_of(report.cells) : report.details));
-      return document.dump(2) + '\n';
+      return json_text(document);
     }
   }
   return {};

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 #include <variant>
 
@@ -13,10 +14,9 @@ namespace {
 
 /// What a statement that ends in RETURNING id returns.
 Result<std::int64_t> key_of(sqlite::Statement& statement) {
-  const auto row = statement.step();
-  if (!row) return Unexpected{row.error()};
+  SIPPLAB_TRY(statement.step());
   const std::int64_t id = statement.integer(0);
-  if (auto done = statement.run(); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(statement.run());
   return id;
 }
 
@@ -25,9 +25,8 @@ Result<std::int64_t> key_of(sqlite::Statement& statement) {
 template <class... Values>
 Result<std::int64_t> upsert(sqlite::Connection& connection, std::string_view sql, std::string_view doing,
                             const Values&... values) {
-  auto statement = sqlite::Statement::prepare(connection, sql, doing);
-  if (!statement) return Unexpected{statement.error()};
-  return key_of(statement->bind(values...));
+  auto statement = SIPPLAB_TRY(sqlite::Statement::prepare(connection, sql, doing, values...));
+  return key_of(statement);
 }
 
 }  // namespace
@@ -56,15 +55,14 @@ Value value_of(sqlite3_stmt* row, int column) {
   }
 }
 
-Result<Table> rest_of(sqlite::Statement& statement) {
+Result<Table> rest_of(sqlite::Statement statement) {
   Table table;
   const int count = sqlite3_column_count(statement.raw());
   for (int i = 0; i < count; ++i) table.columns.emplace_back(sqlite3_column_name(statement.raw(), i));
-  const auto done = statement.for_each([&] {
+  SIPPLAB_TRY(statement.for_each([&] {
     std::vector<Value>& values = table.rows.emplace_back();
     for (int i = 0; i < count; ++i) values.push_back(value_of(statement.raw(), i));
-  });
-  if (!done) return Unexpected{done.error()};
+  }));
   return table;
 }
 
@@ -74,7 +72,7 @@ std::int64_t to_count(std::uint64_t value) {
 
 std::int64_t to_bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-void bind_value(sqlite::Statement& statement, int index, const Value& value) {
+void detail::bind(sqlite::Statement& statement, int index, const Value& value) {
   const auto bind = [&statement, index](const auto& bound) {
     using Bound = std::decay_t<decltype(bound)>;
     if constexpr (std::is_same_v<Bound, Null> || std::is_same_v<Bound, Blob>) {
@@ -88,7 +86,7 @@ void bind_value(sqlite::Statement& statement, int index, const Value& value) {
 
 Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo& commit) {
   // A shallow clone does not know the counts; a full one fills them in.
-  const auto id =
+  const auto id = SIPPLAB_TRY(
       upsert(connection,
              "INSERT INTO commit_ (hash, committed_utc, subject, first_parent_hash, ancestor_count, "
              "first_parent_count) VALUES (?, ?, ?, ?, ?, ?) "
@@ -96,18 +94,14 @@ Result<std::int64_t> commit_id(sqlite::Connection& connection, const CommitInfo&
              "ancestor_count = max(ancestor_count, excluded.ancestor_count), "
              "first_parent_count = max(first_parent_count, excluded.first_parent_count) RETURNING id",
              "writing a commit", commit.hash, commit.committed_utc, commit.subject, commit.first_parent,
-             commit.ancestor_count, commit.first_parent_count);
-  if (!id) return id;
+             commit.ancestor_count, commit.first_parent_count));
   std::vector<std::string> parents;
   if (!commit.first_parent.empty()) parents.push_back(commit.first_parent);
   parents.insert(parents.end(), commit.later_parents.begin(), commit.later_parents.end());
   for (std::size_t position = 0; position < parents.size(); ++position) {
-    auto insert = sqlite::Statement::prepare(
+    SIPPLAB_TRY(sqlite::run(
         connection, "INSERT OR IGNORE INTO commit_parent (commit_id, position, parent_hash) VALUES (?, ?, ?)",
-        "writing the parents of a commit");
-    if (!insert) return Unexpected{insert.error()};
-    insert->bind(*id, static_cast<std::int64_t>(position), parents[position]);
-    if (auto done = insert->run(); !done) return Unexpected{done.error()};
+        "writing the parents of a commit", id, static_cast<std::int64_t>(position), parents[position]));
   }
   return id;
 }
@@ -133,20 +127,16 @@ Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& b
 Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
                                               const std::optional<CommitInfo>& commit) {
   if (!commit) return std::optional<std::int64_t>{};
-  const auto id = commit_id(connection, *commit);
-  if (!id) return Unexpected{id.error()};
-  return std::optional<std::int64_t>{*id};
+  const auto id = SIPPLAB_TRY(commit_id(connection, *commit));
+  return std::optional<std::int64_t>{id};
 }
 
 Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
                                                const RunRow& run) {
-  const auto commit = commit_id(connection, origin.commit);
-  if (!commit) return Unexpected{commit.error()};
-  const auto machine = machine_id(connection, origin.machine);
-  if (!machine) return Unexpected{machine.error()};
-  const auto build = build_id(connection, origin.build);
-  if (!build) return Unexpected{build.error()};
-  auto insert = sqlite::Statement::prepare(
+  const auto commit = SIPPLAB_TRY(commit_id(connection, origin.commit));
+  const auto machine = SIPPLAB_TRY(machine_id(connection, origin.machine));
+  const auto build = SIPPLAB_TRY(build_id(connection, origin.build));
+  SIPPLAB_TRY(sqlite::run(
       connection,
       "INSERT INTO run (uuid, kind, suite, started_utc, outcome, commit_id, machine_id, build_id, branch, "
       "command_line, options, seed, time_limit_s, writer, shard, status, ended_utc) "
@@ -154,84 +144,87 @@ Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, c
       "iif(?16 IS NULL, 'running', 'finished'), iif(?16 IS NULL, NULL, ifnull("
       "strftime('%Y-%m-%dT%H:%M:%fZ', ?4, printf('+%.3f seconds', ?16 / 1e9)), ?4))) "
       "ON CONFLICT (uuid) DO NOTHING",
-      "listing a run");
-  if (!insert) return Unexpected{insert.error()};
-  insert->bind(run.uuid, run.kind, run.suite, run.started_utc, run.outcome, *commit, *machine, *build,
-               origin.branch, run.command_line, run.options, to_bits(run.seed), run.time_limit_s, run.writer,
-               run.shard, run.wall_time_ns);
-  if (auto done = insert->run(); !done) return Unexpected{done.error()};
+      "listing a run", run.uuid, run.kind, run.suite, run.started_utc, run.outcome, commit, machine, build,
+      origin.branch, run.command_line, run.options, to_bits(run.seed), run.time_limit_s, run.writer,
+      run.shard, run.wall_time_ns));
   if (connection.changes() == 0) return std::optional<std::int64_t>{};
   return std::optional<std::int64_t>{connection.last_insert_rowid()};
 }
 
+Result<std::set<std::string>> case_columns(sqlite::Connection& connection) {
+  auto select = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, "SELECT name FROM pragma_table_info('case_')", "reading the columns of cases"));
+  std::set<std::string> columns;
+  SIPPLAB_TRY(select.for_each([&] { columns.insert(select.text(0)); }));
+  return columns;
+}
+
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters) {
-  std::string columns, marks;
-  for (const auto& [column, value] : parameters.options) {
-    columns += ", " + column;
-    marks += ", ?";
+  const auto columns = SIPPLAB_TRY(case_columns(connection));
+  nlohmann::json others = nlohmann::json::object();
+  for (const auto& [name, value] : parameters.options) {
+    if (columns.contains(name)) continue;
+    std::visit(
+        [&json = others[name]](const auto& kept) {
+          if constexpr (std::is_constructible_v<nlohmann::json, decltype(kept)>) json = kept;
+        },
+        value);
   }
-  auto statement = sqlite::Statement::prepare(
-      connection,
-      fmt::format("INSERT INTO case_ (environment, map_spec, instance_set, robots, planner, radius_cells, "
-                  "speed_cells_per_s{}) VALUES (?, ?, ?, ?, ?, ?, ?{}) "
-                  "ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
-                  columns, marks),
-      "writing a case");
-  if (!statement) return Unexpected{statement.error()};
-  statement->bind(parameters.environment, parameters.map_spec, parameters.instance_set, parameters.robots,
-                  parameters.planner, parameters.radius_cells, parameters.speed_cells_per_s);
-  constexpr int kPlainColumns = 7;
-  int index = kPlainColumns;
-  for (const auto& [column, value] : parameters.options) bind_value(*statement, ++index, value);
-  return key_of(*statement);
+  const auto each = [&](const auto& visit) {
+    CaseInfo::columns(parameters, visit);
+    for (const auto& [name, value] : parameters.options) {
+      if (columns.contains(name)) visit(name, value);
+    }
+    visit("options", others.dump());
+  };
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, insert_sql("case_", each) + " ON CONFLICT DO UPDATE SET robots = robots RETURNING id",
+      "writing a case"));
+  return key_of(bind_row(insert, each));
 }
 
 Result<InstanceKeys> InstanceKeys::prepare(sqlite::Connection& connection) {
-  auto select = sqlite::Statement::prepare(connection, "SELECT id FROM instance WHERE content_hash = ?",
-                                           "looking up an instance");
-  if (!select) return Unexpected{select.error()};
-  auto insert =
+  auto select = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, "SELECT id FROM instance WHERE content_hash = ?", "looking up an instance"));
+  auto insert = SIPPLAB_TRY(
       sqlite::Statement::prepare(connection,
                                  "INSERT INTO instance (content_hash, map_hash, name, robots, "
                                  "width_cells, height_cells, blocked_cells) VALUES (?, ?, ?, ?, ?, ?, ?)",
-                                 "writing an instance");
-  if (!insert) return Unexpected{insert.error()};
-  return InstanceKeys{&connection, std::move(*select), std::move(*insert)};
+                                 "writing an instance"));
+  return InstanceKeys{&connection, std::move(select), std::move(insert)};
 }
 
 Result<std::int64_t> InstanceKeys::key(const InstanceInfo& instance) {
-  const auto row = select_.bind(instance.content_hash).step();
-  if (!row) return Unexpected{row.error()};
-  const std::int64_t known = row.value() ? select_.integer(0) : 0;
+  const auto row = SIPPLAB_TRY(select_.bind(instance.content_hash).step());
+  const std::int64_t known = row ? select_.integer(0) : 0;
   select_.reset();
-  if (row.value()) return known;
-  insert_.bind(instance.content_hash, instance.map_hash, instance.name, instance.robots, instance.width_cells,
-               instance.height_cells, instance.blocked_cells);
-  if (auto done = insert_.run(); !done) return Unexpected{done.error()};
+  if (row) return known;
+  SIPPLAB_TRY(insert_
+                  .bind(instance.content_hash, instance.map_hash, instance.name, instance.robots,
+                        instance.width_cells, instance.height_cells, instance.blocked_cells)
+                  .run());
   return connection_->last_insert_rowid();
 }
 
 CaseInfo read_case(const sqlite::Statement& row, int column) {
   CaseInfo parameters;
-  const int count = sqlite3_column_count(row.raw());
-  for (; column < count; ++column) {
+  std::set<std::string_view> plain{"id", "options"};
+  read_row(row, [&](const auto& visit) {
+    CaseInfo::columns(parameters, [&](std::string_view name, auto& value) {
+      plain.insert(name);
+      visit(name, value);
+    });
+  });
+  for (; column < sqlite3_column_count(row.raw()); ++column) {
     const std::string name = sqlite3_column_name(row.raw(), column);
-    if (name == "environment") {
-      parameters.environment = row.text(column);
-    } else if (name == "map_spec") {
-      parameters.map_spec = row.text(column);
-    } else if (name == "instance_set") {
-      parameters.instance_set = row.text(column);
-    } else if (name == "robots") {
-      parameters.robots = row.integer(column);
-    } else if (name == "planner") {
-      parameters.planner = row.text(column);
-    } else if (name == "radius_cells") {
-      parameters.radius_cells = row.real(column);
-    } else if (name == "speed_cells_per_s") {
-      parameters.speed_cells_per_s = row.real(column);
-    } else if (name != "id") {
-      parameters.options[name] = value_of(row.raw(), column);
+    if (!plain.contains(name)) parameters.options[name] = value_of(row.raw(), column);
+    if (name != "options") continue;
+    const auto others = nlohmann::json::parse(row.text(column), nullptr, false);
+    for (const auto& [option, value] : others.items()) {
+      Value& kept = parameters.options[option];
+      if (value.is_number_integer()) kept = value.get<std::int64_t>();
+      if (value.is_number_float()) kept = value.get<double>();
+      if (value.is_string()) kept = value.get<std::string>();
     }
   }
   return parameters;

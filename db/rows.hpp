@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -25,12 +26,10 @@ std::int64_t to_bits(std::uint64_t value);
 inline std::int64_t sql_limit(std::size_t limit) {
   return limit == 0 ? -1 : static_cast<std::int64_t>(limit);
 }
-/// A number or a text; of a blob, which no parameter has, NULL.
-void bind_value(sqlite::Statement& statement, int index, const Value& value);
 /// The value of a column in the current row.
 Value value_of(sqlite3_stmt* row, int column);
 /// All rows that are left, under the names of their columns.
-Result<Table> rest_of(sqlite::Statement& statement);
+Result<Table> rest_of(sqlite::Statement statement);
 
 /// The key of the row, which is written if it is missing. To be called within a
 /// write transaction.
@@ -40,6 +39,8 @@ Result<std::int64_t> build_id(sqlite::Connection& connection, const BuildInfo& b
 Result<std::optional<std::int64_t>> commit_id(sqlite::Connection& connection,
                                               const std::optional<CommitInfo>& commit);
 Result<std::int64_t> case_id(sqlite::Connection& connection, const CaseInfo& parameters);
+/// The columns of case_; an option that has none is a member of the JSON object in `options`.
+Result<std::set<std::string>> case_columns(sqlite::Connection& connection);
 
 /// What all runs have, whatever their kind: the columns of the table run.
 struct RunRow {
@@ -72,7 +73,7 @@ RunRow finished_run(const char* kind, const std::string& suite, const std::strin
   return row;
 }
 
-/// Lists a run; gives its key. None where the history has one of that UUID: nothing is written then. To
+/// Lists a run; gives its key. None if the history has one of that UUID: nothing is written then. To
 /// be called within a write transaction, as the rows of its kind are.
 Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
                                                const RunRow& run);
@@ -93,7 +94,7 @@ class InstanceKeys {
   sqlite::Statement insert_;
 };
 
-/// From `column` on, the columns of case_ by their names: SELECT ..., case_.*.
+/// The columns of case_ by their names, the options from `column` on: SELECT ..., case_.*.
 CaseInfo read_case(const sqlite::Statement& row, int column);
 
 }  // namespace sipplab::db

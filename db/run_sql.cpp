@@ -149,9 +149,8 @@ Result<std::string> run_parameter(Database& database, std::string_view name, con
   }
   const auto uuid = resolve_run(database, run);
   if (!uuid || name == "run") return uuid;
-  const auto before = run_before(database, *uuid);
-  if (!before) return Unexpected{before.error()};
-  if (*before) return **before;
+  const auto before = SIPPLAB_TRY(run_before(database, *uuid));
+  if (before) return *before;
   return Unexpected{
       Error{ErrorKind::kNotFound,
             fmt::format("{}: no run of the same suite before {}, expected one, or --param other=RUN",
@@ -183,9 +182,8 @@ Result<Done> bind_parameters(Database& database, sqlite3_stmt* statement, const 
     const auto found = std::find_if(given.begin(), given.end(),
                                     [&name](const auto& parameter) { return parameter.first == name; });
     if (name == "run" || name == "other") {
-      const auto uuid = run_parameter(database, name, given);
-      if (!uuid) return Unexpected{uuid.error()};
-      sqlite3_bind_text(statement, index, uuid->data(), static_cast<int>(uuid->size()), SQLITE_TRANSIENT);
+      const auto uuid = SIPPLAB_TRY(run_parameter(database, name, given));
+      sqlite3_bind_text(statement, index, uuid.data(), static_cast<int>(uuid.size()), SQLITE_TRANSIENT);
     } else if (found != given.end()) {
       bind_text_or_number(statement, index, found->second);
     } else {
@@ -203,12 +201,9 @@ Result<Done> bind_parameters(Database& database, sqlite3_stmt* statement, const 
 
 Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql,
                       const Parameters& parameters) {
-  auto database = Database::open_read_only(path);
-  if (!database) return Unexpected{database.error()};
-  auto& connection = database->connection();
-  if (auto done = connection.execute("PRAGMA query_only = ON", "preparing it for reading"); !done) {
-    return Unexpected{done.error()};
-  }
+  auto database = SIPPLAB_TRY(Database::open_read_only(path));
+  auto& connection = database.connection();
+  SIPPLAB_TRY(connection.execute("PRAGMA query_only = ON", "preparing it for reading"));
   sqlite3* db = connection.raw();
   if (const int code = statistics::register_functions(db); code != SQLITE_OK) {
     return Unexpected{sqlite::describe(connection.handle(), code, "adding the statistics functions")};
@@ -233,8 +228,7 @@ Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql,
   if (has_statement(db, tail)) {
     return Unexpected{bad_query(file, "more than one statement, expected a single one")};
   }
-  if (auto done = bind_parameters(*database, statement.get(), parameters); !done)
-    return Unexpected{done.error()};
+  SIPPLAB_TRY(bind_parameters(database, statement.get(), parameters));
   return read_rows(connection.handle(), statement.get());
 }
 

@@ -56,14 +56,13 @@ CellMedians medians_of(const std::vector<const ResultRow*>& results) {
 }
 
 Result<CellSummariser> CellSummariser::prepare(sqlite::Connection& connection) {
-  auto insert = sqlite::Statement::prepare(
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
       connection,
       fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, ?2, ?3, ?4 FROM v_recomputed_cells "
                   "WHERE cell_id = ?1",
                   kColumns, kMedians),
-      "summarising a finished case");
-  if (!insert) return Unexpected{insert.error()};
-  return CellSummariser{std::move(*insert)};
+      "summarising a finished case"));
+  return CellSummariser{std::move(insert)};
 }
 
 Result<Done> CellSummariser::summarise(std::int64_t cell_id, const CellMedians& medians) {
@@ -89,16 +88,13 @@ Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection) {
 }
 
 Result<Done> rebuild_summaries(sqlite::Connection& connection) {
-  auto transaction = sqlite::Transaction::begin(connection);
-  if (!transaction) return Unexpected{transaction.error()};
-  if (auto done = connection.execute("DELETE FROM cell_summary", "clearing summaries"); !done) return done;
-  if (auto done = connection.execute(
-          fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, {1} FROM v_recomputed_cells", kColumns,
-                      kMedians),
-          "making summaries anew");
-      !done)
-    return done;
-  return transaction->commit();
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
+  SIPPLAB_TRY(connection.execute("DELETE FROM cell_summary", "clearing summaries"));
+  SIPPLAB_TRY(connection.execute(
+      fmt::format("INSERT INTO cell_summary ({0}, {1}) SELECT {0}, {1} FROM v_recomputed_cells", kColumns,
+                  kMedians),
+      "computing all summaries"));
+  return transaction.commit();
 }
 
 }  // namespace sipplab::db

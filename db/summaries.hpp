@@ -43,7 +43,7 @@ class CellSummariser {
 /// results.
 Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection);
 
-/// Makes all summaries anew, in one transaction.
+/// Computes all summaries again, in one transaction.
 Result<Done> rebuild_summaries(sqlite::Connection& connection);
 
 }  // namespace sipplab::db

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "db/aligned.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -143,7 +144,7 @@ std::string format_json(const Table& table) {
     rows.push_back(std::move(object));
   }
   // Text that is not UTF-8 is shown with replacement characters.
-  return rows.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(rows);
 }
 
 std::string format(const Table& table, OutputFormat format) {

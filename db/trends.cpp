@@ -144,21 +144,25 @@ Result<std::vector<CaseName>> find_cases(Database& database, const CaseFilter& f
       "AND (?3 IS NULL OR robots = ?3) AND (?4 IS NULL OR map_spec = ?4) AND (?5 IS NULL OR planner = ?5)";
   constexpr int kPlainParameters = 5;
   int parameter = kPlainParameters;
-  for (const auto& [column, value] : filter.options) sql += fmt::format(" AND {} = ?{}", column, ++parameter);
+  const auto columns = SIPPLAB_TRY(case_columns(database.connection()));
+  for (const auto& [name, value] : filter.options) {
+    const std::string kept =
+        columns.contains(name) ? name : fmt::format("json_extract(options, '$.{}')", name);
+    sql += fmt::format(" AND {} IS ?{}", kept, ++parameter);
+  }
   sql += " ORDER BY environment, planner, initial_order, reschedule, ssi_s, robots, id";
-  auto select = Statement::prepare(database.connection(), sql, kReadingTrend);
-  if (!select) return Unexpected{select.error()};
-  select->bind(filter.id, filter.environment, filter.robots, filter.map, filter.planner);
+  auto select =
+      SIPPLAB_TRY(Statement::prepare(database.connection(), sql, kReadingTrend, filter.id, filter.environment,
+                                     filter.robots, filter.map, filter.planner));
   parameter = kPlainParameters;
-  for (const auto& [column, value] : filter.options) bind_value(*select, ++parameter, value);
+  for (const auto& [name, value] : filter.options) detail::bind(select, ++parameter, value);
   std::vector<CaseName> cases;
   for (;;) {
-    const auto row = select->step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) break;
-    CaseName named{select->integer(0), select->text(1), {}};
+    const auto row = SIPPLAB_TRY(select.step());
+    if (!row) break;
+    CaseName named{select.integer(0), select.text(1), {}};
     for (std::size_t i = 0; i < named.details.size(); ++i) {
-      named.details[i] = select->text(static_cast<int>(i) + 2);
+      named.details[i] = select.text(static_cast<int>(i) + 2);
     }
     cases.push_back(std::move(named));
   }
@@ -180,15 +184,14 @@ using SamplesByKey = std::map<SeriesKey, std::vector<Sample>>;
 /// Rows of `select`: the context, the keys of the instances, then a sample.
 Result<SamplesByKey> read_samples(Statement& select) {
   SamplesByKey samples;
-  const auto done = select.for_each([&] {
+  SIPPLAB_TRY(select.for_each([&] {
     samples[{select.text(0), select.text(1)}].push_back(read_sample(select, 2));
-  });
-  if (!done) return Unexpected{done.error()};
+  }));
   return samples;
 }
 
 /// Names for the sets of instances on which a case was planned: none if there is only one, else
-/// "10 instances", and "10 instances, set 2" where several have as many.
+/// "10 instances", and "10 instances, set 2" if several have as many.
 std::map<std::string, std::string> set_names(const SamplesByKey& samples) {
   std::map<std::string, std::string> names;
   for (const auto& [key, values] : samples) names[key.instances];
@@ -209,34 +212,38 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
             "build_type || iif(assertions, ' assertions', '') || iif(sanitizers <> '', ' ' || "
             "sanitizers, '')"
           : "''";
+  // v_trends has a row for each cell and metric; those of one metric say where and when.
   return Statement::prepare(
       database.connection(),
-      fmt::format("SELECT {}, (SELECT group_concat(instance_id) FROM "
-                  "  (SELECT DISTINCT instance_id FROM result WHERE cell_id = "
-                  "    (SELECT cell.id FROM cell JOIN run ON run.id = cell.run_id "
-                  "     WHERE run.uuid = v_trends.run AND cell.case_id = v_trends.case_id) "
-                  "   ORDER BY instance_id)), {} "
-                  "FROM v_trends WHERE metric = ?1 AND case_id = ?2 AND value IS NOT NULL "
-                  "AND excluded_reason IS NULL AND (?3 IS NULL OR suite = ?3) "
-                  "AND (?4 IS NULL OR branch = ?4) "
-                  "AND (?5 IS NULL OR host = ?5 OR substr(machine, 1, length(?5)) = ?5)",
-                  context, kSampleColumns),
+      fmt::format(
+          "SELECT {}, (SELECT group_concat(instance_id) FROM "
+          "  (SELECT DISTINCT instance_id FROM result WHERE cell_id = "
+          "    (SELECT cell.id FROM cell JOIN run ON run.id = cell.run_id "
+          "     WHERE run.uuid = place.run AND cell.case_id = place.case_id) "
+          "   ORDER BY instance_id)), {} "
+          "FROM (SELECT commit_hash, commit_subject, committed_utc, started_utc, ancestor_count, dirty, "
+          "  binary_hash, case_id, run, suite, branch, host, machine, compiler, compiler_version, "
+          "  build_type, assertions, sanitizers, excluded_reason, (SELECT {} FROM cell_summary AS summary "
+          "    WHERE summary.case_id = v_trends.case_id "
+          "    AND run_id = (SELECT id FROM run WHERE uuid = v_trends.run)) AS value "
+          "  FROM v_trends WHERE metric = 'success') AS place WHERE case_id = ?1 "
+          "AND value IS NOT NULL AND excluded_reason IS NULL AND (?2 IS NULL OR suite = ?2) "
+          "AND (?3 IS NULL OR branch = ?3) "
+          "AND (?4 IS NULL OR host = ?4 OR substr(machine, 1, length(?4)) = ?4)",
+          context, kSampleColumns, metric.sql),
       kReadingTrend);
 }
 
 Result<std::vector<TrendSeries>> read_case_trends(Database& database, const TrendQuery& query) {
-  const auto cases = find_cases(database, query.cases);
-  if (!cases) return Unexpected{cases.error()};
-  auto select = prepare_case_trend(database, *query.metric);
-  if (!select) return Unexpected{select.error()};
+  const auto cases = SIPPLAB_TRY(find_cases(database, query.cases));
+  auto select = SIPPLAB_TRY(prepare_case_trend(database, *query.metric));
   std::vector<TrendSeries> series;
-  for (const CaseName& named : *cases) {
-    select->bind(query.metric->name, named.id, query.suite, query.branch, query.machine);
-    auto samples = read_samples(*select);
-    if (!samples) return Unexpected{samples.error()};
-    select->reset();
-    std::map<std::string, std::string> names = set_names(*samples);
-    for (auto& [key, values] : *samples) {
+  for (const CaseName& named : cases) {
+    select.bind(named.id, query.suite, query.branch, query.machine);
+    auto samples = SIPPLAB_TRY(read_samples(select));
+    select.reset();
+    std::map<std::string, std::string> names = set_names(samples);
+    for (auto& [key, values] : samples) {
       series.push_back(
           {named.id, named.label, names[key.instances], key.context, points_of(std::move(values)), {}});
     }
@@ -244,57 +251,13 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
   return series;
 }
 
-/// One value per commit of everything that a check of another kind gave there.
-std::string commit_source(const TrendMetric& metric) {
-  const auto properties = [](std::string_view value) {
-    return fmt::format(
-        "SELECT 'all properties' AS context, commit_hash, commit_subject, committed_utc, ancestor_count, "
-        "min(started_utc) AS started_utc, 0 AS dirty, '' AS binary_hash, {} AS value FROM v_property_runs "
-        "WHERE mutant = '' AND excluded_reason IS NULL AND commit_hash IS NOT NULL GROUP BY commit_hash",
-        value);
-  };
-  const auto fuzz_runs = [](std::string_view value) {
-    return fmt::format(
-        "SELECT target || ', ' || host AS context, v_fuzz_runs.commit_hash, v_fuzz_runs.commit_subject, "
-        "commit_.committed_utc, v_fuzz_runs.ancestor_count, started_utc, dirty, target_hash AS binary_hash, "
-        "{0} AS value FROM v_fuzz_runs LEFT JOIN commit_ ON commit_.hash = v_fuzz_runs.commit_hash "
-        "WHERE {0} IS NOT NULL AND excluded_reason IS NULL",
-        value);
-  };
-  if (metric.name == "property-cases") return properties("sum(cases)");
-  if (metric.name == "fuzz-speed") return fuzz_runs("executions_per_s");
-  if (metric.name == "fuzz-edges") return fuzz_runs("edges");
-  if (metric.name == "fuzz-coverage") {
-    return "SELECT room AS context, v_fuzz_coverage.commit_hash, commit_.subject AS commit_subject, "
-           "commit_.committed_utc, v_fuzz_coverage.ancestor_count, started_utc, 0 AS dirty, '' AS "
-           "binary_hash, "
-           "share AS value FROM v_fuzz_coverage LEFT JOIN commit_ ON commit_.hash = "
-           "v_fuzz_coverage.commit_hash";
-  }
-  if (metric.name == "benchmark-time") {
-    return "SELECT benchmark || ', ' || program || ', ' || host || ifnull(' ' || build_type, '') AS context, "
-           "v_measurements.commit_hash, "
-           "commit_.subject AS commit_subject, commit_.committed_utc, v_measurements.ancestor_count, "
-           "started_utc, "
-           "0 AS dirty, run AS binary_hash, real_time_ns / 1e9 AS value "
-           "FROM v_measurements JOIN (SELECT run.uuid AS run_uuid, run.suite AS program, build.build_type "
-           "  FROM run JOIN build ON build.id = run.build_id) ON run_uuid = v_measurements.run "
-           "LEFT JOIN commit_ ON commit_.hash = v_measurements.commit_hash "
-           "WHERE real_time_ns IS NOT NULL AND excluded_reason IS NULL";
-  }
-  return properties("avg(status <> 'passed')");
-}
-
 Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {
-  auto select = Statement::prepare(
+  auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
-      fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, commit_source(*query.metric)),
-      kReadingTrend);
-  if (!select) return Unexpected{select.error()};
-  auto samples = read_samples(*select);
-  if (!samples) return Unexpected{samples.error()};
+      fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, query.metric->sql), kReadingTrend));
+  auto samples = SIPPLAB_TRY(read_samples(select));
   std::vector<TrendSeries> series;
-  for (auto& [key, values] : *samples) {
+  for (auto& [key, values] : samples) {
     series.push_back({0, key.context, "", "", points_of(std::move(values)), {}});
   }
   return series;
@@ -307,7 +270,7 @@ double median_between(const std::vector<TrendPoint>& points, std::size_t begin, 
 }
 
 /// Drops the changes that are too small to matter. A level reaches from one change to the next,
-/// so that the levels are taken anew whenever one is dropped.
+/// so the levels are computed again whenever one is dropped.
 void drop_small_changes(TrendSeries& series, const TrendMetric& metric, double min_effect) {
   for (;;) {
     std::size_t smallest = series.changes.size();

@@ -29,6 +29,9 @@ struct TrendMetric {
   /// Smallest change worth a mark: a share of the level, or a difference for rates.
   double min_effect = 0;
   bool rate = false;  ///< 0..1: effects are differences
+  /// Of a case: an expression over the columns of cell_summary. Else a SELECT with the columns context,
+  /// commit_hash, commit_subject, committed_utc, ancestor_count, started_utc, dirty, binary_hash, value.
+  std::string sql = {};
 };
 
 const std::vector<TrendMetric>& trend_metrics();
@@ -40,8 +43,9 @@ struct CaseFilter {
   std::optional<std::string> environment;
   std::optional<std::int64_t> robots;
   std::optional<std::string> map;
-  std::optional<std::string> planner;    ///< as the table has it: "sipplab weight:1.05", "cmd:mine"
-  std::map<std::string, Value> options;  ///< of the planner, by column
+  std::optional<std::string> planner;  ///< as the table has it: "sipplab weight:1.05", "cmd:mine"
+  /// Of the planner, as CaseInfo has them; NULL: a case without it.
+  std::map<std::string, Value> options;
 };
 
 struct TrendQuery {

@@ -24,9 +24,9 @@ using fuzz::Claim;
 /// Seconds. Where two disks set the mover free at the same time, each gives that time with
 /// its own slack and rounding, and the twins may look at either first.
 constexpr double kTwinS = 1e-7;
-/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each.
+/// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each.
 constexpr double kArrivalS = 1e-6;
-/// Cells. More than all slacks along a way, less than anybody would call a detour.
+/// Cells. More than all slacks along a path, less than any real detour.
 constexpr double kNoContactCells = 1e-7;
 /// Times from which departures are asked for, in seconds.
 constexpr double kFromS[] = {0, 0.125, 1, 2.5};
@@ -60,7 +60,7 @@ Traffic traffic_around(const PlanCase& plan_case, AgentIndex agent) {
   return traffic;
 }
 
-/// The same with bodies so much larger that no way along them touches.
+/// The same with bodies so much larger that no path along them touches.
 Traffic kept_apart(Traffic traffic) {
   for (double& radius : traffic.radii) radius += kNoContactCells;
   return traffic;
@@ -162,7 +162,7 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   options.connectedness = plan_case.options.connectedness;
   const Arrival any_angle = search(plan_case, agent, traffic, options);
   if (any_angle.found && any_angle.arrival_s <= grid.arrival_s + kArrivalS) return;
-  // The way between neighbours may run through a slot of zero width that the slacks of several
+  // The move between neighbours may run through a slot of zero width that the slacks of several
   // robots have closed to all but the last bit: without contacts it has to hold.
   options.any_angle = false;
   const Arrival apart = search(plan_case, agent, kept_apart(traffic), options);

@@ -97,7 +97,7 @@ void check_final_order(const PlanCase& plan_case, const PlanResult& result) {
   for (std::size_t i = 0; the_same && i < result.order().size(); ++i) {
     the_same = replayed.solution.trajectories[i] == result.solution.trajectories[result.order()[i]];
   }
-  require(Claim::kFinalOrderExplainsPlan, the_same, "planned anew in the final order, trajectories differ");
+  require(Claim::kFinalOrderExplainsPlan, the_same, "planned again in the final order, trajectories differ");
   if (plan_case.options.ssi_s != 0 || sorted.instance.agents.empty()) return;
   sorted.instance.agents.pop_back();
   Solution expected = replayed.solution;
@@ -228,7 +228,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (solved) check_verdict(*plan_case, result);
       break;
     case 3:
-      // A plan that was repaired by ejection is not planned anew in its final order.
+      // A plan that was repaired by ejection is not planned again in its final order.
       if (solved && plan_case->options.rescheduling != Rescheduling::kEjection) {
         check_final_order(*plan_case, result);
       }

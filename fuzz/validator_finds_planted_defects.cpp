@@ -26,7 +26,7 @@ constexpr double kShiftS = 0.5;
 constexpr double kDepthCells = 0.05;
 /// Seconds between the times at which a start is looked at.
 constexpr double kSampleStepS = 0.125;
-/// One plan in so many is drawn with what was found: a picture takes as long as the rest.
+/// One plan in this many is drawn with what was found: a picture takes as long as the rest.
 constexpr std::uint64_t kDrawnOneIn = 4;
 
 /// A right plan that defects are planted into.

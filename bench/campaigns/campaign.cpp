@@ -21,6 +21,7 @@
 #include "bench/program.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/identity.hpp"
+#include "planner/core/try.hpp"
 #include "planner/io/text_file.hpp"
 
 namespace sipplab::bench {
@@ -104,14 +105,12 @@ class TargetRun {
   /// Writes what run() did, and what it found as it was found. A run that the user ended without findings is none.
   db::Result<std::vector<OpenFinding>> record() {
     if (interrupted_by() != 0 && found_.empty()) return std::vector<OpenFinding>();
-    const auto id = db::record_fuzz_run(database_, origin_, run_);
-    if (!id) return Unexpected{id.error()};
+    const auto id = SIPPLAB_TRY(db::record_fuzz_run(database_, origin_, run_));
     std::vector<OpenFinding> open;
     for (const auto& [signature, found] : found_) {
       const db::Finding finding = finding_of(run_.target, found.first, found.second);
-      const auto stored = db::record_finding(database_, origin_, finding, *id, db::utc_now());
-      if (!stored) return Unexpected{stored.error()};
-      open.push_back({*stored, found.first.report, &program_});
+      const auto stored = SIPPLAB_TRY(db::record_finding(database_, origin_, finding, id, db::utc_now()));
+      open.push_back({stored, found.first.report, &program_});
     }
     return open;
   }
@@ -365,10 +364,7 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
   std::deque<TargetRun> runs;  // findings point to their programs
   for (const std::string& target : options.targets.empty() ? targets_of(options) : options.targets) {
     runs.emplace_back(database, origin, options, result.campaign, target);
-    if (!options.skip_known) continue;
-    const auto known = runs.back().is_known();
-    if (!known) return Unexpected{known.error()};
-    if (!*known) continue;
+    if (!options.skip_known || !SIPPLAB_TRY(runs.back().is_known())) continue;
     result.skipped.push_back(target);
     runs.pop_back();
   }
@@ -406,7 +402,7 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
   work();
   for (std::thread& other : others) other.join();
   if (error) return Unexpected{*error};
-  if (auto done = finish(database, options, open, deadline, tell); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(finish(database, options, open, deadline, tell));
   for (const OpenFinding& finding : open) result.findings.push_back(finding.stored);
   return result;
 }

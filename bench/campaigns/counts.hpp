@@ -27,7 +27,7 @@ struct Count {
   std::uint64_t count = 0;
 };
 
-/// What was counted at least once; empty where there is no such file.
+/// What was counted at least once; empty if there is no such file.
 std::vector<Count> read_counts(const std::string& path);
 
 }  // namespace sipplab::fuzz

@@ -2,37 +2,12 @@
 #include "bench/campaigns/replay.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <string_view>
 #include <system_error>
-#include <vector>
+
+#include "bench/program.hpp"
 
 namespace sipplab::bench {
-namespace {
-
-/// The environment of this process with RC_PARAMS set and without a property log.
-std::vector<std::string> replay_environment(const std::string& reproduce) {
-  std::vector<std::string> environment{"RC_PARAMS=" + reproduce};
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text = *entry;
-    if (text.rfind("RC_PARAMS=", 0) == 0 || text.rfind("SIPPLAB_PROPERTY_LOG=", 0) == 0) continue;
-    environment.emplace_back(text);
-  }
-  return environment;
-}
-
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-}  // namespace
-
 CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner) {
   CaseVerdict verdict;
   if (const auto error = find_error(plan_case.instance)) {
@@ -63,24 +38,14 @@ std::string replay_command(const std::filesystem::path& program, const std::stri
 ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& reproduce) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(program, ignored)) return ProgramVerdict::kNotRun;
-  std::vector<std::string> arguments{program.string()};
-  std::vector<std::string> environment = replay_environment(reproduce);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, arguments[0].c_str(), &actions, nullptr,
-                                 pointers_to(arguments).data(), pointers_to(environment).data());
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  if (failed != 0 || waitpid(child, &status, 0) != child) return ProgramVerdict::kNotRun;
+  const ProgramRun run =
+      run_program({program.string()},
+                  {.environment = {"RC_PARAMS=" + reproduce, "SIPPLAB_PROPERTY_LOG="}, .all_to_log = true});
   constexpr int kCannotExecute = 127;  // as shells have it
-  if (WIFEXITED(status) &&
-      (WEXITSTATUS(status) == kCannotExecute || WEXITSTATUS(status) == kNoSuchProperty)) {
+  if (!run.started || run.exit_code == kCannotExecute || run.exit_code == kNoSuchProperty) {
     return ProgramVerdict::kNotRun;
   }
-  const bool holds = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  return holds ? ProgramVerdict::kHolds : ProgramVerdict::kFails;
+  return run.exit_code == 0 ? ProgramVerdict::kHolds : ProgramVerdict::kFails;
 }
 
 }  // namespace sipplab::bench

@@ -123,13 +123,10 @@ struct Resumption {
 
 db::Result<Resumption> find_resumption(db::Database& database, const db::RunInfo& info) {
   Resumption resumption;
-  const auto found = db::find_resumable_run(database, info);
-  if (!found) return Unexpected{found.error()};
-  if (!*found) return resumption;
-  resumption.run = (*found)->uuid;
-  auto finished = db::finished_cases(database, *resumption.run);
-  if (!finished) return Unexpected{finished.error()};
-  resumption.finished = std::move(*finished);
+  const auto found = SIPPLAB_TRY(db::find_resumable_run(database, info));
+  if (!found) return resumption;
+  resumption.run = found->uuid;
+  resumption.finished = SIPPLAB_TRY(db::finished_cases(database, *resumption.run));
   return resumption;
 }
 
@@ -182,16 +179,13 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
               bench::ExpandedSweep cases) {
   const std::filesystem::path path = db::database_path(arguments.database);
   const db::RunInfo info = run_info(arguments, cases);
-  auto database = db::Database::open(path);
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path));
 
-  if (const auto line = find_taken_name(*database, arguments)) return fail(kBadUsage, "sipplab: " + *line);
+  if (const auto line = find_taken_name(database, arguments)) return fail(kBadUsage, "sipplab: " + *line);
 
   Resumption resumption;
   if (arguments.resume) {
-    db::Result<Resumption> found = find_resumption(*database, info);
-    if (!found) return fail(found.error());
-    resumption = std::move(*found);
+    resumption = SIPPLAB_TRY_OR(fail, find_resumption(database, info));
     const std::size_t all = cases.cases.size();
     keep_cases(cases, [&resumption](const bench::NamedCase& named) {
       const auto& finished = resumption.finished;
@@ -207,11 +201,9 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
 
   std::optional<bench::CommandPlanner> command;
   if (const auto spec = command_of(arguments)) {
-    auto made = bench::CommandPlanner::make(*spec);
-    if (!made) return fail(kBadUsage, "sipplab: " + made.error());
-    command = std::move(*made);
+    command = SIPPLAB_TRY_OR(bad_usage, bench::CommandPlanner::make(*spec));
   }
-  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(*database), info, resumption.run),
+  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, resumption.run),
                      arguments.repetitions, stderr_is_terminal(), std::move(command));
   sweep.register_benchmarks(flags.format == "csv");
   if (sweep.entries().empty()) {
@@ -234,39 +226,35 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   if (arguments.repetitions > 1) {
     benchmark_flags.push_back(fmt::format("--benchmark_repetitions={}", arguments.repetitions));
   }
-  const Expected<bench::BenchmarkFlags, std::string> flags = bench::initialize_benchmark(benchmark_flags);
-  if (!flags) return fail(kBadUsage, "sipplab: " + flags.error());
-  arguments.repetitions = flags->repetitions;
-  if (arguments.json && !flags->format.empty()) {
-    return fail(kBadUsage, "sipplab: --json and --benchmark_format both claim stdout, expected one of them");
+  const bench::BenchmarkFlags flags = SIPPLAB_TRY_OR(bad_usage, bench::initialize_benchmark(benchmark_flags));
+  arguments.repetitions = flags.repetitions;
+  if (arguments.json && !flags.format.empty()) {
+    return bad_usage("--json and --benchmark_format both claim stdout, expected one of them");
   }
 
-  Expected<bench::ExpandedSweep, std::string> cases = bench::expand(request_of(arguments));
-  if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
+  bench::ExpandedSweep cases = SIPPLAB_TRY_OR(bad_usage, bench::expand(request_of(arguments)));
   std::vector<std::string> names;
-  for (const bench::NamedCase& named : cases->cases) names.push_back(full_name(*cases, named));
-  const Expected<std::vector<bool>, std::string> matches = bench::filter_matches(flags->filter, names);
-  if (!matches) return fail(kBadUsage, "sipplab: " + matches.error());
+  for (const bench::NamedCase& named : cases.cases) names.push_back(full_name(cases, named));
+  const std::vector<bool> matches = SIPPLAB_TRY_OR(bad_usage, bench::filter_matches(flags.filter, names));
   std::size_t position = 0;
-  keep_cases(*cases, [&matches, &position](const bench::NamedCase&) { return (*matches)[position++]; });
-  if (cases->cases.empty()) {
-    return fail(kBadUsage, "sipplab: --benchmark_filter: no case matches " + in_quotes(flags->filter));
+  keep_cases(cases, [&matches, &position](const bench::NamedCase&) { return matches[position++]; });
+  if (cases.cases.empty()) {
+    return bad_usage("--benchmark_filter: no case matches " + in_quotes(flags.filter));
   }
   if (arguments.shard) {
     // Neighbouring cases cost alike: dealing them out in turn gives shards of like length.
     const bench::Shard shard = bench::parse_shard(*arguments.shard).value_or(bench::Shard{});
     position = 0;
-    keep_cases(*cases, [&shard, &position](const bench::NamedCase&) { return shard.holds(position++); });
-    if (cases->cases.empty()) {
-      return fail(kBadUsage,
-                  "sipplab: --shard " + *arguments.shard + ": no case is left for it, expected fewer shards");
+    keep_cases(cases, [&shard, &position](const bench::NamedCase&) { return shard.holds(position++); });
+    if (cases.cases.empty()) {
+      return bad_usage("--shard " + *arguments.shard + ": no case is left for it, expected fewer shards");
     }
   }
-  if (flags->list_tests) {
-    for (const bench::NamedCase& named : cases->cases) print(full_name(*cases, named) + "\n");
+  if (flags.list_tests) {
+    for (const bench::NamedCase& named : cases.cases) print(full_name(cases, named) + "\n");
     return kSuccess;
   }
-  return run_sweep(arguments, *flags, std::move(*cases));
+  return run_sweep(arguments, flags, std::move(cases));
 }
 
 namespace {

@@ -25,11 +25,13 @@ bool set(db::CaseFilter& filter, std::string_view key, const std::string& text) 
   if (key == "planner") return filter.planner = text, true;
   if (key == "robots") return (filter.robots = parse_whole(text)).has_value();
   const Option* option = find_option(key);
-  if (option == nullptr || *option->column == '\0' || !takes(*option, text)) return false;
+  if (option == nullptr || bench::history_key(*option).empty() || !takes(*option, text)) return false;
   // As a case has it: of a choice one word, of numbers one.
   PlannerOptions options;
   option->set(options, text);
-  filter.options[option->column] = bench::column_value(*option, option->get(options));
+  const bool is_kept = *option->column != '\0' || differs(*option, options);
+  filter.options[bench::history_key(*option)] =
+      is_kept ? bench::column_value(*option, option->get(options)) : db::Value{db::Null{}};
   return true;
 }
 

@@ -26,17 +26,13 @@ struct CompareArguments {
 };
 
 int run_compare(const CompareArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
-  const auto base = db::resolve_side(*database, arguments.base);
-  if (!base) return fail(base.error());
-  const auto head = db::resolve_side(*database, arguments.head);
-  if (!head) return fail(head.error());
-  auto cells = db::paired_cells(*database, *base, *head);
-  if (!cells) return fail(cells.error());
-  bench::Judgement judgement = bench::measured(std::move(*cells));
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.database));
+  const auto base = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.base));
+  const auto head = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.head));
+  auto cells = SIPPLAB_TRY_OR(fail, db::paired_cells(database, base, head));
+  bench::Judgement judgement = bench::measured(std::move(cells));
   if (judgement.all.compared == 0) {
-    return fail(kNothingComparable, "sipplab: " + base->title + " and " + head->title +
+    return fail(kNothingComparable, "sipplab: " + base.title + " and " + head.title +
                                         " share no case and instance, expected runs of one suite");
   }
   bench::JudgeOptions options;
@@ -46,8 +42,8 @@ int run_compare(const CompareArguments& arguments) {
     return {{"title", named.title},
             {"commit", named.commit_hash ? nlohmann::ordered_json(*named.commit_hash) : nullptr}};
   };
-  bench::Report report{judgement, "sipplab compare", base->title, head->title};
-  report.details = {{"base", side(*base)}, {"head", side(*head)}};
+  bench::Report report{judgement, "sipplab compare", base.title, head.title};
+  report.details = {{"base", side(base)}, {"head", side(head)}};
   report.all_findings = "--list";
   if (arguments.list) report.listed = std::numeric_limits<std::size_t>::max();
   return print_report(report, arguments.report);
@@ -61,7 +57,7 @@ Command add_compare_command(CLI::App& program) {
       program.add_subcommand("compare", "compare two runs, commits or branches, instance by instance");
   command->footer(
       "A and B are `latest`, a run's UUID or a commit's hash (four digits or more of either), or a branch;\n"
-      "`run:`, `commit:` or `branch:` before it says which. Of a commit, the newest result of each case\n"
+      "`run:`, `commit:` or `branch:` before it says which. For a commit, the newest result of each case\n"
       "counts. Exit codes: 0 same, or changed and nothing worse; 1 regressed (fewer solved, invalid plans,\n"
       "longer flowtimes); 3 inconclusive (fewer solved, which may be chance); 4 nothing comparable.");
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();

@@ -1,4 +1,5 @@
 #include "bench/cli/console.hpp"
+#include "db/json_text.hpp"
 
 #include <unistd.h>
 
@@ -36,6 +37,8 @@ void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) remember_failure();
 }
 
+void print_json(const nlohmann::ordered_json& json) { print(db::json_text(json)); }
+
 int close_stdout(int code) {
   errno = 0;
   std::cout.flush();
@@ -43,12 +46,12 @@ int close_stdout(int code) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) remember_failure();
   if (!stdout_failed) return code;
   const std::string reason = stdout_errno != 0 ? std::strerror(stdout_errno) : "write error";
-  return fail(kBadUsage, "sipplab: cannot write to standard output: " + reason);
+  return fail("sipplab: cannot write to standard output: " + reason);
 }
 
 void diagnose(std::string_view line) {
   const std::string text = on_one_line(line) + "\n";
-  std::fflush(stdout);  // where both go to one file, lines keep their order
+  std::fflush(stdout);  // if both go to one file, lines keep their order
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -56,6 +59,12 @@ int fail(int code, std::string_view line) {
   diagnose(line);
   return code;
 }
+
+int fail(const std::string& line) { return fail(kBadUsage, line); }
+
+int fail(const InputError& error) { return fail(error.message()); }
+
+int bad_usage(const std::string& line) { return fail("sipplab: " + line); }
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 

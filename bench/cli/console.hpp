@@ -2,7 +2,12 @@
 // everything else to stderr.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
+
+#include "planner/core/try.hpp"
+#include "planner/io/input_error.hpp"
 
 namespace sipplab::cli {
 
@@ -21,9 +26,10 @@ inline constexpr int kSignalExitBase = 128;
 
 /// Writes to stdout; what cannot be written is noticed by close_stdout().
 void print(std::string_view text);
+void print_json(const nlohmann::ordered_json& json);
 
 /// Flushes stdout, standard streams included. Returns `code`, or kBadUsage with one
-/// line on stderr where the reader has gone or the disk is full.
+/// line on stderr if the reader has gone or the disk is full.
 int close_stdout(int code);
 
 /// One line on stderr as it is; line breaks in it become blanks.
@@ -31,6 +37,11 @@ void diagnose(std::string_view line);
 
 /// diagnose(line), and the code to end with.
 int fail(int code, std::string_view line);
+/// Of bad input: the line names its file.
+int fail(const std::string& line);
+int fail(const InputError& error);
+/// Of bad usage: "sipplab: " and the line.
+int bad_usage(const std::string& line);
 
 bool stderr_is_terminal();
 

@@ -1,4 +1,4 @@
-// sipplab doctor: whether the history is sound, and what to do where it is not.
+// sipplab doctor: whether the history is sound, and what to do if it is not.
 #include <fmt/format.h>
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "db/database.hpp"
 #include "db/doctor.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -35,7 +36,7 @@ std::string json_text(const db::DoctorReport& report, const std::string& file) {
                                     {"fixable", finding.fixable},
                                     {"fixed", finding.fixed}});
   }
-  return document.dump(2) + "\n";
+  return db::json_text(document);
 }
 
 std::string plain_text(const db::DoctorReport& report, const std::string& file) {
@@ -65,13 +66,12 @@ int run_doctor(const DoctorArguments& arguments) {
 
 Command add_doctor_command(CLI::App& program) {
   auto arguments = std::make_shared<DoctorArguments>();
-  CLI::App* command =
-      program.add_subcommand("doctor", "check the history, and say what to do about findings");
-  command->add_flag("--quick", arguments->options.quick, "leave out what reads every result");
-  command->add_flag("--fix", arguments->options.fix, "set right what can be without losing anything");
+  CLI::App* command = program.add_subcommand("doctor", "check the history and advise what to do");
+  command->add_flag("--quick", arguments->options.quick, "skip checks that read every result");
+  command->add_flag("--fix", arguments->options.fix, "fix what can be fixed without losing anything");
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");
-  command->footer("Ends with 0 for a sound history, 1 for findings.");
+  command->footer("Exit codes: 0 sound, 1 findings.");
   return {command, [arguments] { return run_doctor(*arguments); }};
 }
 

@@ -133,8 +133,7 @@ Command add_documentation_command(CLI::App& program) {
   return {&command, [&program, arguments] {
             const std::string text =
                 arguments->kind == "man" ? manual_page(program) : bash_completion(program);
-            if (const auto error = write_file(arguments->file, text))
-              return fail(kBadUsage, error->message());
+            if (const auto error = write_file(arguments->file, text)) return fail(error->message());
             return static_cast<int>(kSuccess);
           }};
 }

@@ -19,6 +19,7 @@
 #include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
 #include "db/identity.hpp"
+#include "db/json_text.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
 
@@ -63,11 +64,9 @@ db::Table table_of(const std::vector<db::StoredFinding>& findings) {
 }
 
 int run_list(const FindingsArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
-  const auto findings = db::list_findings(*database, arguments.open);
-  if (!findings) return fail(findings.error());
-  print(db::format(table_of(*findings), arguments.history.output_format()));
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
+  const auto findings = SIPPLAB_TRY_OR(fail, db::list_findings(database, arguments.open));
+  arguments.history.show(table_of(findings));
   return kSuccess;
 }
 
@@ -117,17 +116,12 @@ std::optional<std::string> write_files(const FindingsArguments& arguments, const
 }
 
 int run_show(const FindingsArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
-  const auto stored = db::find_finding(*database, *arguments.id);
-  if (!stored) return fail(stored.error());
-  const auto events = db::finding_events(*database, *arguments.id);
-  if (!events) return fail(events.error());
-  if (const auto problem = write_files(arguments, stored->finding)) return fail(kBadUsage, *problem);
-  constexpr auto kReplace = Json::error_handler_t::replace;  // an input need not be UTF-8
-  print(arguments.history.output_format() == db::OutputFormat::kJson
-            ? json_of(*stored, *events).dump(2, ' ', false, kReplace) + "\n"
-            : text_of(*stored, *events));
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
+  const auto stored = SIPPLAB_TRY_OR(fail, db::find_finding(database, *arguments.id));
+  const auto events = SIPPLAB_TRY_OR(fail, db::finding_events(database, *arguments.id));
+  if (const auto problem = write_files(arguments, stored.finding)) return fail(*problem);
+  print(arguments.history.output_format() == db::OutputFormat::kJson ? db::json_text(json_of(stored, events))
+                                                                     : text_of(stored, events));
   return kSuccess;
 }
 
@@ -170,51 +164,38 @@ db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding&
     return Replayed{stored, fmt::format("not run: {} did not answer", program.replayer().string())};
   }
   const bool breaks = verdict.verdict == bench::TargetVerdict::kBreaks;
-  const auto recorded = db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now());
-  if (!recorded) return Unexpected{recorded.error()};
-  if (!breaks) return Replayed{*recorded, "holds by now"};
+  const auto recorded =
+      SIPPLAB_TRY(db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now()));
+  if (!breaks) return Replayed{recorded, "holds by now"};
   const bool is_same = verdict.signature() == stored.finding.signature();
-  return Replayed{*recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message, verdict.report};
+  return Replayed{recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message, verdict.report};
 }
 
 int run_replay(const FindingsArguments& arguments) {
-  auto database = db::Database::open(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.history.database));
   std::vector<db::StoredFinding> findings;
   if (arguments.id) {
-    const auto stored = db::find_finding(*database, *arguments.id);
-    if (!stored) return fail(stored.error());
-    findings.push_back(*stored);
+    findings.push_back(SIPPLAB_TRY_OR(fail, db::find_finding(database, *arguments.id)));
   } else {
-    const auto all = db::list_findings(*database, false);
-    if (!all) return fail(all.error());
-    findings = *all;
+    findings = SIPPLAB_TRY_OR(fail, db::list_findings(database, false));
   }
-  const auto scratch = bench::TemporaryFolder::make();
-  if (!scratch) return fail(kBadUsage, scratch.error());
+  const auto scratch = SIPPLAB_TRY_OR(fail, bench::TemporaryFolder::make());
   db::Table table{{"id", "state", "target", "replay"}, {}};
   int code = kSuccess;
   for (const db::StoredFinding& stored : findings) {
-    const auto replayed = replay_one(*database, stored, places_of(arguments), scratch->path());
-    if (!replayed) return fail(replayed.error());
+    const auto replayed =
+        SIPPLAB_TRY_OR(fail, replay_one(database, stored, places_of(arguments), scratch.path()));
     // What a developer needs for one; of all it would be a flood.
-    if (arguments.id && !replayed->report.empty()) diagnose(std::string(trimmed(replayed->report)));
-    table.rows.push_back({stored.id, replayed->stored.state, stored.finding.target, replayed->verdict});
-    if (replayed->verdict.rfind("not run", 0) == 0) {
+    if (arguments.id && !replayed.report.empty()) diagnose(std::string(trimmed(replayed.report)));
+    table.rows.push_back({stored.id, replayed.stored.state, stored.finding.target, replayed.verdict});
+    if (replayed.verdict.rfind("not run", 0) == 0) {
       if (code == kSuccess) code = kInconclusive;
-    } else if (replayed->stored.state != "fixed") {
+    } else if (replayed.stored.state != "fixed") {
       code = kNegativeVerdict;
     }
   }
-  print(db::format(table, arguments.history.output_format()));
+  arguments.history.show(table);
   return code;
-}
-
-CLI::App* add_subcommand(CLI::App& findings, const std::string& name, const std::string& description,
-                         FindingsArguments& arguments) {
-  CLI::App* command = findings.add_subcommand(name, description);
-  arguments.history.add_to(*command);
-  return command;
 }
 
 }  // namespace
@@ -224,16 +205,16 @@ Command add_findings_command(CLI::App& program, const Invocation& invocation) {
   arguments->program = invocation.program;
   CLI::App* findings = program.add_subcommand("findings", "what fuzzing found, and whether it still breaks");
   findings->require_subcommand(1);
-  CLI::App* list = add_subcommand(*findings, "list", "all findings", *arguments);
+  CLI::App* list = arguments->history.add_command(*findings, "list", "all findings");
   list->add_flag("--open", arguments->open, "only those that are not fixed");
-  CLI::App* show = add_subcommand(*findings, "show", "one finding, with its smallest input", *arguments);
+  CLI::App* show = arguments->history.add_command(*findings, "show", "one finding, with its smallest input");
   show->add_option("id", arguments->id, "as `sipplab findings list` shows it")->required();
   show->add_option("-o,--output", arguments->output, "write the smallest input there")->type_name("FILE");
   show->add_option("--svg", arguments->svg, "draw the planning case and its plan there")->type_name("FILE");
-  CLI::App* replay = add_subcommand(*findings, "replay",
-                                    "run the smallest inputs again; exit code 1 where one still breaks, 0 "
-                                    "where all hold, 3 where one was not run",
-                                    *arguments);
+  CLI::App* replay =
+      arguments->history.add_command(*findings, "replay",
+                                     "run the smallest inputs again; exit code 1 where one still breaks, 0 "
+                                     "where all hold, 3 where one was not run");
   CLI::Option* id = replay->add_option("id", arguments->id, "as `sipplab findings list` shows it");
   CLI::Option* all =
       replay->add_flag("--all", arguments->all, "every finding, in place of an id")->excludes(id);
@@ -245,8 +226,7 @@ Command add_findings_command(CLI::App& program, const Invocation& invocation) {
   return {findings, [=] {
             if (list->parsed()) return run_list(*arguments);
             if (show->parsed()) return run_show(*arguments);
-            if (id->empty() && all->empty())
-              return fail(kBadUsage, "sipplab findings replay: expected an id or --all");
+            if (id->empty() && all->empty()) return fail("sipplab findings replay: expected an id or --all");
             return run_replay(*arguments);
           }};
 }

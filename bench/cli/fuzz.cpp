@@ -67,58 +67,47 @@ int run_campaign(FuzzArguments& arguments) {
   campaign.programs = fs::absolute(arguments.programs);
   campaign.sources = fs::absolute(arguments.sources);
   campaign.work = fs::absolute(arguments.work);
-  if (const auto problem = problem_of(campaign)) return fail(kBadUsage, "sipplab fuzz: " + *problem);
-  auto database = db::Database::open(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
+  if (const auto problem = problem_of(campaign)) return fail("sipplab fuzz: " + *problem);
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.history.database));
   bench::catch_interrupts("\nsipplab: ending with what was found so far; once more to end at once\n");
-  const auto result = bench::run_campaign(*database, bench::run_origin(), campaign, diagnose);
-  if (!result) return fail(result.error());
-  for (const std::string& skipped : result->skipped) {
+  const auto result =
+      SIPPLAB_TRY_OR(fail, bench::run_campaign(database, bench::run_origin(), campaign, diagnose));
+  for (const std::string& skipped : result.skipped) {
     diagnose(skipped + ": skipped, this very program was fuzzed before and nothing was found");
   }
   db::FuzzRunFilter filter;
-  filter.campaign = result->campaign;
-  const auto table = db::list_fuzz_runs(*database, filter);
-  if (!table) return fail(table.error());
-  print(db::format(*table, arguments.history.output_format()));
+  filter.campaign = result.campaign;
+  const auto table = SIPPLAB_TRY_OR(fail, db::list_fuzz_runs(database, filter));
+  arguments.history.show(table);
   if (bench::interrupted_by() != 0) return kSignalExitBase + bench::interrupted_by();
-  if (!result->findings.empty()) return kNegativeVerdict;
-  return result->broken ? kInconclusive : kSuccess;
+  if (!result.findings.empty()) return kNegativeVerdict;
+  return result.broken ? kInconclusive : kSuccess;
 }
 
 int run_list(const FuzzArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
   db::FuzzRunFilter filter;
   filter.target = arguments.target;
   filter.limit = arguments.limit;
-  const auto table = db::list_fuzz_runs(*database, filter);
-  if (!table) return fail(table.error());
-  print(db::format(*table, arguments.history.output_format()));
+  const auto table = SIPPLAB_TRY_OR(fail, db::list_fuzz_runs(database, filter));
+  arguments.history.show(table);
   return kSuccess;
 }
 
 int run_coverage(const FuzzArguments& arguments) {
-  const auto text = read_file(arguments.summary);
-  if (!text) return fail(kBadUsage, text.error().message());
-  const auto files = bench::parse_coverage(*text, arguments.summary);
-  if (!files) return fail(kBadUsage, files.error());
-  auto database = db::Database::open(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
-  const auto campaign = db::latest_fuzz_campaign(*database);
-  if (!campaign) return fail(campaign.error());
-  if (const auto done = db::record_fuzz_coverage(*database, *campaign, *files); !done)
-    return fail(done.error());
-  const auto table = db::list_fuzz_coverage(*database, *campaign);
-  if (!table) return fail(table.error());
-  print(db::format(*table, arguments.history.output_format()));
+  const auto text = SIPPLAB_TRY_OR(fail, read_file(arguments.summary));
+  const auto files = SIPPLAB_TRY_OR(fail, bench::parse_coverage(text, arguments.summary));
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.history.database));
+  const auto campaign = SIPPLAB_TRY_OR(fail, db::latest_fuzz_campaign(database));
+  SIPPLAB_TRY_OR(fail, db::record_fuzz_coverage(database, campaign, files));
+  const auto table = SIPPLAB_TRY_OR(fail, db::list_fuzz_coverage(database, campaign));
+  arguments.history.show(table);
   return kSuccess;
 }
 
 int run_hardest(const FuzzArguments& arguments) {
   const auto cases = bench::distinct_cases(bench::hardest_cases(arguments.folders), arguments.keep);
-  if (cases.empty())
-    return fail(kBadUsage, "sipplab fuzz: no case with robots in these folders, expected one");
+  if (cases.empty()) return fail("sipplab fuzz: no case with robots in these folders, expected one");
   db::Table table{
       {"file", "robots", "cells", "reschedule", "status", "tries", "expansions", "expansions_per_robot"}, {}};
   for (const bench::HardCase& hard : cases) {
@@ -133,23 +122,16 @@ int run_hardest(const FuzzArguments& arguments) {
     fs::create_directories(*arguments.output, ignored);
     const fs::path file = fs::path(*arguments.output) / fmt::format("{:02}.case", table.rows.size());
     if (const auto error = write_file(file.string(), encode_case(hard.plan_case))) {
-      return fail(kBadUsage, error->message());
+      return fail(error->message());
     }
   }
-  print(db::format(table, arguments.history.output_format()));
+  arguments.history.show(table);
   return kSuccess;
 }
 
-CLI::App* add_subcommand(CLI::App& fuzz, const std::string& name, const std::string& description,
-                         FuzzArguments& arguments) {
-  CLI::App* command = fuzz.add_subcommand(name, description);
-  arguments.history.add_to(*command);
-  return command;
-}
-
 CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
-  CLI::App* run = add_subcommand(
-      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 where a target did not run", arguments);
+  CLI::App* run = arguments.history.add_command(
+      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 where a target did not run");
   bench::CampaignOptions& campaign = arguments.campaign;
   run->add_option("--programs", arguments.programs, "folder of the targets' programs")->capture_default_str();
   run->add_option("--sources", arguments.sources, "folder with corpus/, regressions/ and dictionaries/")
@@ -181,16 +163,15 @@ Command add_fuzz_command(CLI::App& program) {
   CLI::App* fuzz = program.add_subcommand("fuzz", "run the fuzz targets, and what they did");
   fuzz->require_subcommand(1);
   CLI::App* run = add_run(*fuzz, *arguments);
-  CLI::App* list = add_subcommand(*fuzz, "list", "runs of targets, newest first", *arguments);
+  CLI::App* list = arguments->history.add_command(*fuzz, "list", "runs of targets, newest first");
   list->add_option("--target", arguments->target, "only this target");
   list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
-  CLI::App* coverage =
-      add_subcommand(*fuzz, "coverage",
-                     "take the coverage of the newest campaign into the history, and print it", *arguments);
+  CLI::App* coverage = arguments->history.add_command(
+      *fuzz, "coverage", "take the coverage of the newest campaign into the history, and print it");
   coverage->add_option("summary", arguments->summary, "what llvm-cov export -summary-only printed")
       ->required();
-  CLI::App* hardest = add_subcommand(
-      *fuzz, "hardest", "the cases of some folders that need most expansions per robot", *arguments);
+  CLI::App* hardest = arguments->history.add_command(
+      *fuzz, "hardest", "the cases of some folders that need most expansions per robot");
   hardest->add_option("folder", arguments->folders, "folders of cases")->required();
   hardest->add_option("--keep", arguments->keep, "this many, of different kinds")->capture_default_str();
   hardest->add_option("-o,--output", arguments->output, "write them there as 01.case, 02.case, ...")

@@ -63,7 +63,7 @@ int failed_comparison(const std::string& line) {
   if (bench::interrupted_by() != 0) {
     return fail(kSignalExitBase + bench::interrupted_by(), "sipplab: stopped before a verdict");
   }
-  return fail(kBadUsage, "sipplab: " + line);
+  return bad_usage(line);
 }
 
 void warn_of_unfit_builds(const bench::GateResult& result) {
@@ -85,14 +85,9 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
       live.show(fmt::format("comparison {} of {}: {}", number + 1, arguments.comparisons, what));
     };
     request.seed = arguments.request.seed + number;
-    auto result = bench::compare_builds(request, cases, noise, progress);
-    if (!result) return failed_comparison(result.error());
-    const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, true));
-    if (!recorded) return fail(recorded.error());
-    auto measured = db::gate_noise(database, bench::gate_kind(request));
-    if (!measured) return fail(measured.error());
-    noise = std::move(*measured);
-    last = std::move(*result);
+    last = SIPPLAB_TRY_OR(failed_comparison, bench::compare_builds(request, cases, noise, progress));
+    SIPPLAB_TRY_OR(fail, db::record_gate_run(database, bench::gate_record(request, cases, *last, true)));
+    noise = SIPPLAB_TRY_OR(fail, db::gate_noise(database, bench::gate_kind(request)));
   }
   live.show("");
   bench::update_noise(request, cases, noise, *last);
@@ -104,16 +99,15 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
 
 int run_comparison(const GateArguments& arguments, const bench::GateCases& cases, db::Database& database) {
   const bench::GateRequest& request = arguments.request;
-  const auto noise = db::gate_noise(database, bench::gate_kind(request));
-  if (!noise) return fail(noise.error());
+  const auto noise = SIPPLAB_TRY_OR(fail, db::gate_noise(database, bench::gate_kind(request)));
   Expected<bench::GateResult, std::string> result = Unexpected{std::string()};
   {
     LiveLine live;
     result =
-        bench::compare_builds(request, cases, *noise, [&live](const std::string& what) { live.show(what); });
+        bench::compare_builds(request, cases, noise, [&live](const std::string& what) { live.show(what); });
   }
   if (!result) return failed_comparison(result.error());
-  // What took so long to find out is said, even where the history does not take it.
+  // The result took long to measure: it is printed even if it cannot be recorded.
   const auto recorded = db::record_gate_run(database, bench::gate_record(request, cases, *result, false));
   warn_of_unfit_builds(*result);
   const int code = print_report(bench::gate_report(request, *result, recorded ? *recorded : std::string()),
@@ -130,21 +124,18 @@ int run_gate(const GateArguments& given) {
   if (arguments.calibrate) {
     if (arguments.base.empty()) arguments.base = kThisProgram;
     if (!arguments.head.empty()) {
-      return fail(kBadUsage, "sipplab: --calibrate runs one build against itself, expected no --head");
+      return bad_usage("--calibrate runs one build against itself, expected no --head");
     }
     if (arguments.report.junit || arguments.report.format == "markdown") {
-      return fail(kBadUsage,
-                  "sipplab: --calibrate has no verdict, expected --format text or json and no --junit");
+      return bad_usage("--calibrate has no verdict, expected --format text or json and no --junit");
     }
     arguments.head = arguments.base;
   }
   if (arguments.base.empty() || arguments.head.empty()) {
-    return fail(kBadUsage, "sipplab: expected --base BUILD and --head BUILD, or --calibrate");
+    return bad_usage("expected --base BUILD and --head BUILD, or --calibrate");
   }
   for (std::string* build : {&arguments.base, &arguments.head}) {
-    auto program = bench::find_program(*build);
-    if (!program) return fail(kBadUsage, "sipplab: " + program.error());
-    *build = std::move(*program);
+    *build = SIPPLAB_TRY_OR(bad_usage, bench::find_program(*build));
   }
   arguments.request.builds = {arguments.base, arguments.head, {}};
   for (const char* variable : {bench::kSlowdownVariable, bench::kChangeVariable}) {
@@ -152,13 +143,12 @@ int run_gate(const GateArguments& given) {
     if (value == nullptr || arguments.calibrate) continue;
     arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
   }
-  const auto cases = bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only);
-  if (!cases) return fail(kBadUsage, "sipplab: " + cases.error());
-  auto database = db::Database::open(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
+  const auto cases = SIPPLAB_TRY_OR(
+      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only));
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   bench::catch_interrupts();
-  return arguments.calibrate ? run_calibration(arguments, *cases, *database)
-                             : run_comparison(arguments, *cases, *database);
+  return arguments.calibrate ? run_calibration(arguments, cases, database)
+                             : run_comparison(arguments, cases, database);
 }
 
 /// Empty for a suite that can be timed, else what was expected.
@@ -174,28 +164,28 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
       ->type_name("BUILD");
   command.add_option("--head", arguments.head, "build to judge")->type_name("BUILD");
   CLI::Option* calibrate = command.add_flag("--calibrate", arguments.calibrate,
-                                            "compare a build (--base, else this one) with itself and keep "
-                                            "what that says about this machine's noise");
-  command.add_option("--comparisons", arguments.comparisons, "of a calibration")
+                                            "compare a build (--base, else this one) with itself to measure "
+                                            "this machine's noise");
+  command.add_option("--comparisons", arguments.comparisons, "number of comparisons of a calibration")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000}))
       ->needs(calibrate)
       ->capture_default_str();
-  command.add_option("--suite", request.suite, "what is timed: gate, smoke, density")
+  command.add_option("--suite", request.suite, "suite to time: gate, smoke or density")
       ->check(check_suite)
       ->capture_default_str();
   command.add_flag("--allow-changes", request.allow_changes,
-                   "other plans are meant: judge only time, validity and how many are solved");
+                   "plans may change: judge only time, validity and the number solved");
   command
       .add_option("--tolerance", request.tolerance, "slowdown to rule out before two builds are equivalent")
       ->check(real_between(0.001, 10))
       ->capture_default_str();
-  command.add_option("--pairs", request.pairs, "pairs of processes")
+  command.add_option("--pairs", request.pairs, "number of pairs of processes")
       ->check(CLI::Range(std::size_t{5}, std::size_t{1000}))
       ->capture_default_str();
-  command.add_option("--pair-seconds", request.budget.seconds, "time that each pair plans for")
+  command.add_option("--pair-seconds", request.budget.seconds, "seconds that each pair plans")
       ->check(real_between(0.01, 600))
       ->capture_default_str();
-  command.add_option("--seed", request.seed, "of the order of plannings")
+  command.add_option("--seed", request.seed, "seed of the order of plannings")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   add_database_flag(command, arguments.database);
@@ -212,11 +202,11 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
 
 Command add_gate_command(CLI::App& program) {
   auto arguments = std::make_shared<GateArguments>();
-  CLI::App* command = program.add_subcommand(
-      "gate", "judge a build against another: same plans? slower? on this machine, now");
+  CLI::App* command =
+      program.add_subcommand("gate", "compare two builds on this machine, now: same plans, same speed?");
   command->footer(
-      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds; 25 when something\n"
-      "is suspicious and has to be confirmed by fresh processes.");
+      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds, or 25 if\n"
+      "fresh processes have to confirm a suspicion.");
   add_flags(*command, *arguments);
   return {command, [arguments] { return run_gate(*arguments); }};
 }

@@ -99,34 +99,31 @@ std::string unwritten_flags(const GenerateArguments& arguments) {
 
 int run_generate(const GenerateArguments& arguments) {
   if (const std::string lost = lost_in_movingai(arguments); !lost.empty()) {
-    return fail(kBadUsage, "sipplab: --format movingai has no place for " + lost + ", expected --format xml");
+    return bad_usage("--format movingai has no place for " + lost + ", expected --format xml");
   }
-  const Expected<MapSpec, std::string> spec = parse_map_spec(arguments.map);
-  if (!spec) return fail(kBadUsage, "sipplab: " + spec.error());
+  const MapSpec spec = SIPPLAB_TRY_OR(bad_usage, parse_map_spec(arguments.map));
 
   // Once without writing, so that an impossible wish leaves no files behind.
   for (std::uint64_t index = 0; index < arguments.count; ++index) {
-    const auto instance = generate_instance(*spec, generator_options(arguments, index));
-    if (!instance) return fail(kBadUsage, "sipplab: " + instance.error());
+    SIPPLAB_TRY_OR(bad_usage, generate_instance(spec, generator_options(arguments, index)));
   }
 
   std::error_code error;
-  for (std::uint64_t index = 0; spec->kind == MapSpec::Kind::kFile && index < arguments.count; ++index) {
-    const auto instance = generate_instance(*spec, generator_options(arguments, index));
+  for (std::uint64_t index = 0; spec.kind == MapSpec::Kind::kFile && index < arguments.count; ++index) {
+    const auto instance = generate_instance(spec, generator_options(arguments, index));
     for (const File& file : files_of(arguments, *instance, index)) {
-      if (!std::filesystem::equivalent(file.path, spec->path, error)) continue;
-      return fail(kBadUsage, "sipplab: -o and --map: " + file.path + " is the map, expected another folder");
+      if (!std::filesystem::equivalent(file.path, spec.path, error)) continue;
+      return bad_usage("-o and --map: " + file.path + " is the map, expected another folder");
     }
   }
   std::filesystem::create_directories(arguments.folder, error);
-  if (error)
-    return fail(kBadUsage, "sipplab: cannot make folder " + arguments.folder + ": " + error.message());
+  if (error) return bad_usage("cannot make folder " + arguments.folder + ": " + error.message());
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
   for (std::uint64_t index = 0; index < arguments.count; ++index) {
-    const auto instance = generate_instance(*spec, generator_options(arguments, index));
+    const auto instance = generate_instance(spec, generator_options(arguments, index));
     if (!instance) return fail(kInternalError, "sipplab: internal error: " + instance.error());
     for (const File& file : files_of(arguments, *instance, index)) {
-      if (const auto failure = write_file(file.path, file.text)) return fail(kBadUsage, failure->message());
+      if (const auto failure = write_file(file.path, file.text)) return fail(failure->message());
       written.push_back(file.path);
     }
   }
@@ -136,7 +133,7 @@ int run_generate(const GenerateArguments& arguments) {
     json["agents"] = arguments.agents;
     json["seed"] = arguments.seed;
     json["files"] = std::move(written);
-    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    print_json(json);
   } else {
     print(fmt::format("{} instance{} of {} robot{} on {} in {}\nsweep them: sipplab bench --instances {}{}\n",
                       arguments.count, arguments.count == 1 ? "" : "s", arguments.agents,

@@ -30,28 +30,24 @@ struct ImportArguments {
 int run_import(const ImportArguments& arguments) {
   std::vector<db::MeasurementRun> runs;  // all are read before the first is written
   for (const std::string& file : arguments.files) {
-    auto run = bench::read_google_benchmark(file, arguments.context);
-    if (!run) return fail(kBadUsage, run.error());
-    runs.push_back(std::move(*run));
+    runs.push_back(SIPPLAB_TRY_OR(fail, bench::read_google_benchmark(file, arguments.context)));
   }
-  auto database = db::Database::open(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   nlohmann::ordered_json imported = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto recorded = db::record_measurements(*database, runs[i]);
-    if (!recorded) return fail(recorded.error());
+    const auto recorded = SIPPLAB_TRY_OR(fail, db::record_measurements(database, runs[i]));
     imported.push_back({{"file", arguments.files[i]},
                         {"run", runs[i].uuid},
                         {"suite", runs[i].info.suite},
                         {"measurements", runs[i].measurements.size()},
-                        {"known", recorded->known}});
+                        {"known", recorded.known}});
     if (!arguments.json) {
       print(fmt::format("{}: run {}, suite {}, {} measurements{}\n", arguments.files[i], runs[i].uuid,
                         runs[i].info.suite, runs[i].measurements.size(),
-                        recorded->known ? ", known already" : ""));
+                        recorded.known ? ", known already" : ""));
     }
   }
-  if (arguments.json) print(nlohmann::ordered_json{{"imported", imported}}.dump(2) + "\n");
+  if (arguments.json) print_json({{"imported", imported}});
   return kSuccess;
 }
 
@@ -64,7 +60,7 @@ Command add_import_command(CLI::App& program) {
       ->required()
       ->check(CLI::IsMember({"google-benchmark"}));
   command->add_option("files", arguments->files, "reports")->required()->type_name("FILE");
-  command->add_option("--suite", arguments->context.suite, "name for them; default: the program that ran");
+  command->add_option("--suite", arguments->context.suite, "suite name; default: the program that ran");
   command->add_option("--commit", arguments->context.commit, "hash of the commit that was measured")
       ->check([](const std::string& text) {
         return bench::is_commit_hash(text) ? std::string()

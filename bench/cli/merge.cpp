@@ -40,23 +40,21 @@ int run_merge(const MergeArguments& arguments) {
   for (const std::string& file : arguments.files) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) {
-      return fail(kBadUsage, file + ": no such file, expected a history");
+      return fail(file + ": no such file, expected a history");
     }
   }
-  auto database = db::Database::open(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   nlohmann::ordered_json document;
-  document["database"] = database->path().string();
+  document["database"] = database.path().string();
   document["merged"] = nlohmann::ordered_json::array();
   for (const std::string& file : arguments.files) {
-    const auto report = db::merge_into(*database, file);
-    if (!report) return fail(report.error());
+    const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, file));
     nlohmann::ordered_json added = nlohmann::ordered_json::object();
-    for (const auto& [table, rows] : report->added) added[table] = rows;
+    for (const auto& [table, rows] : report.added) added[table] = rows;
     document["merged"].push_back({{"file", file}, {"added", added}});
-    if (!arguments.json) print(summary(file, *report));
+    if (!arguments.json) print(summary(file, report));
   }
-  if (arguments.json) print(document.dump(2) + "\n");
+  if (arguments.json) print_json(document);
   return kSuccess;
 }
 
@@ -65,7 +63,7 @@ int run_merge(const MergeArguments& arguments) {
 Command add_merge_command(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command =
-      program.add_subcommand("merge", "add what other histories hold to this one; twice does no harm");
+      program.add_subcommand("merge", "merge other histories into this one; repeating it changes nothing");
   command->add_option("files", arguments->files, "histories to read")->required()->type_name("FILE");
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");

@@ -174,14 +174,13 @@ int report_invalid(const PlanArguments& arguments, const Instance& instance, con
 }
 
 int run_plan(const PlanArguments& arguments) {
-  const Expected<LoadedInstance, std::string> loaded = arguments.instance.load();
-  if (!loaded) return fail(kBadUsage, loaded.error());
-  const Instance& instance = loaded->instance;
+  const auto loaded = SIPPLAB_TRY_OR(fail, arguments.instance.load());
+  const Instance& instance = loaded.instance;
   PlannerOptions options;
   options.threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads);
   const StatedOptions stated = arguments.options.stated();
-  options = stated.applied_to(loaded->options.applied_to(options));
-  if (const auto line = find_beyond(instance, options)) return fail(kBadUsage, "sipplab: " + *line);
+  options = stated.applied_to(loaded.options.applied_to(options));
+  if (const auto line = find_beyond(instance, options)) return bad_usage(*line);
   if (options.best || options.improve) {
     bench::catch_interrupts("\nsipplab: ending with the best plan so far; once more to end at once\n");
     options.stop = &bench::interrupt_flag();
@@ -196,14 +195,14 @@ int run_plan(const PlanArguments& arguments) {
   const SolutionDocument document = document_of(outcome, options);
   if (arguments.output) {
     const std::string text = write_solution(output_format(arguments), instance, document);
-    if (const auto error = write_file(*arguments.output, text)) return fail(kBadUsage, error->message());
+    if (const auto error = write_file(*arguments.output, text)) return fail(error->message());
   }
   const std::string subtitle =
       document.makespan_s ? fmt::format("{} robots, makespan {:.2f} s, flowtime {:.2f} s",
                                         instance.agents.size(), *document.makespan_s, *document.flowtime_s)
                           : document.status;
   if (const auto error = draw(arguments, instance, document.solution, {}, subtitle)) {
-    return fail(kBadUsage, *error);
+    return fail(*error);
   }
   if (arguments.json) {
     print(solution_to_json(instance, document));

@@ -15,17 +15,8 @@ std::string expected(const std::string& text, const std::string& what) {
 }
 
 const char* title(OptionGroup group) {
-  switch (group) {
-    case OptionGroup::kPlanner:
-      return "Planner";
-    case OptionGroup::kMotion:
-      return "Motion";
-    case OptionGroup::kLimits:
-      return "Limits";
-    case OptionGroup::kImprovement:
-      return "Improvement";
-  }
-  return "Options";
+  constexpr const char* kNames[] = {"Planner", "Motion", "Limits", "Improvement"};
+  return kNames[static_cast<std::size_t>(group)];
 }
 
 }  // namespace

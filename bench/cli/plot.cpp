@@ -38,19 +38,14 @@ struct PlottedRuns {
 
 db::Result<PlottedRuns> read_runs(const PlotArguments& arguments) {
   const std::filesystem::path path = db::database_path(arguments.database);
-  auto database = db::Database::open_read_only(path);
-  if (!database) return Unexpected{database.error()};
+  auto database = SIPPLAB_TRY(db::Database::open_read_only(path));
   PlottedRuns runs;
   for (const std::string& run : arguments.runs) {
-    const auto uuid = db::resolve_run(*database, run);
-    if (!uuid) return Unexpected{uuid.error()};
-    auto report = db::show_run(*database, *uuid);
-    if (!report) return Unexpected{report.error()};
-    runs.reports.push_back(std::move(*report));
+    const auto uuid = SIPPLAB_TRY(db::resolve_run(database, run));
+    runs.reports.push_back(SIPPLAB_TRY(db::show_run(database, uuid)));
     if (arguments.kind == kRuntime) continue;
-    auto cells = bench::measured_cells(path, *uuid);
-    if (!cells) return Unexpected{cells.error()};
-    runs.paper_cells.insert(runs.paper_cells.end(), cells->begin(), cells->end());
+    auto cells = SIPPLAB_TRY(bench::measured_cells(path, uuid));
+    runs.paper_cells.insert(runs.paper_cells.end(), cells.begin(), cells.end());
   }
   return runs;
 }
@@ -58,22 +53,19 @@ db::Result<PlottedRuns> read_runs(const PlotArguments& arguments) {
 int run_plot(const PlotArguments& arguments) {
   const bool of_paper = arguments.kind != kRuntime;
   if (of_paper && arguments.runs.size() > 1) {
-    return fail(kBadUsage, "sipplab: " + arguments.kind + " shows one run, expected not " +
-                               std::to_string(arguments.runs.size()));
+    return bad_usage(arguments.kind + " shows one run, expected not " +
+                     std::to_string(arguments.runs.size()));
   }
   if (of_paper && !arguments.cases.empty()) {
-    return fail(kBadUsage, "sipplab: " + arguments.kind + " has cells of its own, expected no --case");
+    return bad_usage(arguments.kind + " has cells of its own, expected no --case");
   }
-  const auto filter = parse_case_filter(arguments.cases);
-  if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
-  if (filter->id)
-    return fail(kBadUsage,
-                "sipplab: --case with a case's number, expected values of columns such as robots=64");
-  const auto runs = read_runs(arguments);
-  if (!runs) return fail(runs.error());
-  const bench::Chart chart = arguments.kind == "figure1"  ? bench::figure_chart(runs->paper_cells)
-                             : arguments.kind == "table1" ? bench::table_chart(runs->paper_cells)
-                                                          : bench::runtime_chart(runs->reports, *filter);
+  const auto filter = SIPPLAB_TRY_OR(bad_usage, parse_case_filter(arguments.cases));
+  if (filter.id)
+    return bad_usage("--case with a case's number, expected values of columns such as robots=64");
+  const auto runs = SIPPLAB_TRY_OR(fail, read_runs(arguments));
+  const bench::Chart chart = arguments.kind == "figure1"  ? bench::figure_chart(runs.paper_cells)
+                             : arguments.kind == "table1" ? bench::table_chart(runs.paper_cells)
+                                                          : bench::runtime_chart(runs.reports, filter);
   const bool empty = std::all_of(chart.lines.begin(), chart.lines.end(),
                                  [](const bench::ChartLine& line) { return line.points.empty(); });
   if (empty) {
@@ -86,7 +78,7 @@ int run_plot(const PlotArguments& arguments) {
     print(picture);
     return kSuccess;
   }
-  if (const auto error = write_file(*arguments.file, picture)) return fail(kBadUsage, error->message());
+  if (const auto error = write_file(*arguments.file, picture)) return fail(error->message());
   return kSuccess;
 }
 
@@ -107,7 +99,7 @@ Command add_plot_command(CLI::App& program) {
                    "UUID, its first four or more digits, or latest; several for runtime")
       ->capture_default_str();
   add_case_flag(*command, arguments->cases);
-  command->add_option("-o,--output", arguments->file, "the file; default: standard output")
+  command->add_option("-o,--output", arguments->file, "file to write; default: standard output")
       ->type_name("FILE");
   add_database_flag(*command, arguments->database);
   return {command, [arguments] { return run_plot(*arguments); }};

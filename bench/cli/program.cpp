@@ -31,7 +31,7 @@ std::string help_command(const CLI::App& program) {
   return "sipplab " + (named.empty() ? "" : named.front()->get_name() + " ") + "--help";
 }
 
-/// argv[0] relative to the working directory where it lies below it.
+/// argv[0], relative to the working directory if it lies below it.
 std::string typed_program(const std::string& path) {
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);
@@ -64,7 +64,7 @@ int parse_and_run(int argc, char** argv, const Laboratory& laboratory) {
   }
   refuse_false_counts(program);
   if (const std::string error = empty_element_error(program, argc, argv); !error.empty()) {
-    return fail(kBadUsage, "sipplab: " + error + "; see " + help_command(program));
+    return bad_usage(error + "; see " + help_command(program));
   }
   try {
     program.parse(argc, argv);
@@ -76,17 +76,16 @@ int parse_and_run(int argc, char** argv, const Laboratory& laboratory) {
   } catch (const CLI::RequiredError& error) {
     const bool unknown = program.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
     const std::string what = unknown ? "no command is called " + std::string(argv[1]) : error.what();
-    return fail(kBadUsage, "sipplab: " + what + "; see " + help_command(program));
+    return bad_usage(what + "; see " + help_command(program));
   } catch (const CLI::ParseError& error) {
-    return fail(kBadUsage, "sipplab: " + std::string(error.what()) + "; see " + help_command(program));
+    return bad_usage(std::string(error.what()) + "; see " + help_command(program));
   } catch (const std::logic_error&) {
-    // Thrown by the library where a flag is given a value, --any-angle=foo.
-    return fail(kBadUsage,
-                "sipplab: a flag with a value that is none of true and false; see " + help_command(program));
+    // Thrown by the library if a flag is given a value, --any-angle=foo.
+    return bad_usage("a flag has a value that is neither true nor false; see " + help_command(program));
   }
   for (const std::string& error :
        {empty_value_error(program), idle_flag_error(program), overwrite_error(program, laboratory.history)}) {
-    if (!error.empty()) return fail(kBadUsage, "sipplab: " + error + "; see " + help_command(program));
+    if (!error.empty()) return bad_usage(error + "; see " + help_command(program));
   }
   for (const Command& command : commands) {
     if (command.arguments->parsed()) return command.run();

@@ -13,7 +13,7 @@ namespace sipplab::cli {
 struct Laboratory {
   /// Adds the commands that need the history or Google Benchmark.
   std::vector<Command> (*add_commands)(CLI::App& program, const Invocation& invocation) = nullptr;
-  /// The history's file where no flag names it.
+  /// The history's file if no flag names it.
   std::filesystem::path (*history)() = nullptr;
 };
 

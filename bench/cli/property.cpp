@@ -16,6 +16,7 @@
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/sweep/run_info.hpp"
+#include "db/json_text.hpp"
 #include "db/property_runs.hpp"
 #include "planner/io/case_codec.hpp"
 #include "planner/io/svg.hpp"
@@ -73,60 +74,52 @@ Expected<std::vector<db::PropertyRun>, std::string> read_log(const std::string& 
 
 /// Sums up a log. With failures in it, the exit code is that of a negative verdict.
 int run_totals(const PropertyArguments& arguments) {
-  const auto runs = read_log(arguments.log);
-  if (!runs) return fail(kBadUsage, runs.error());
-  const bench::PropertyTotals totals = bench::totals_of(*runs);
-  print(arguments.history.json ? totals_json(totals).dump(2) + "\n" : totals_text(totals));
+  const auto runs = SIPPLAB_TRY_OR(fail, read_log(arguments.log));
+  const bench::PropertyTotals totals = bench::totals_of(runs);
+  print(arguments.history.json ? db::json_text(totals_json(totals)) : totals_text(totals));
   return totals.failed + totals.gave_up + totals.crashed == 0 ? kSuccess : kNegativeVerdict;
 }
 
 int run_record(const PropertyArguments& arguments) {
-  const auto runs = read_log(arguments.log);
-  if (!runs) return fail(kBadUsage, runs.error());
-  auto database = db::Database::open(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
-  const auto recorded = db::record_property_runs(*database, bench::run_origin(), *runs, arguments.mutant);
-  if (!recorded) return fail(recorded.error());
-  const bench::PropertyTotals totals = bench::totals_of(*runs);
+  const auto runs = SIPPLAB_TRY_OR(fail, read_log(arguments.log));
+  auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.history.database));
+  const auto recorded =
+      SIPPLAB_TRY_OR(fail, db::record_property_runs(database, bench::run_origin(), runs, arguments.mutant));
+  const bench::PropertyTotals totals = bench::totals_of(runs);
   if (arguments.history.json) {
     nlohmann::ordered_json json = totals_json(totals);
-    json["added"] = recorded->added;
-    json["known"] = recorded->known;
-    print(json.dump(2) + "\n");
+    json["added"] = recorded.added;
+    json["known"] = recorded.known;
+    print_json(json);
   } else {
-    print(totals_text(totals) + fmt::format("{} recorded in {}, {} there already\n", recorded->added,
-                                            database->path().string(), recorded->known));
+    print(totals_text(totals) + fmt::format("{} recorded in {}, {} there already\n", recorded.added,
+                                            database.path().string(), recorded.known));
   }
   return kSuccess;
 }
 
 int run_list(const PropertyArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
   db::PropertyFilter filter;
   filter.room = arguments.room;
   filter.failed = arguments.failed;
   filter.every_run = arguments.all;
   filter.limit = arguments.limit;
-  const auto table = db::list_property_runs(*database, filter);
-  if (!table) return fail(table.error());
-  print(db::format(*table, arguments.history.output_format()));
+  const auto table = SIPPLAB_TRY_OR(fail, db::list_property_runs(database, filter));
+  arguments.history.show(table);
   return kSuccess;
 }
 
 db::Result<db::PropertyReport> find_report(const PropertyArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return Unexpected{database.error()};
-  if (arguments.run != "latest") return db::show_property_run(*database, std::stoll(arguments.run));
-  const auto id = db::latest_property_failure(*database);
-  if (!id) return Unexpected{id.error()};
-  return db::show_property_run(*database, *id);
+  auto database = SIPPLAB_TRY(read_history(arguments.history.database));
+  if (arguments.run != "latest") return db::show_property_run(database, std::stoll(arguments.run));
+  const auto id = SIPPLAB_TRY(db::latest_property_failure(database));
+  return db::show_property_run(database, id);
 }
 
 int run_show(const PropertyArguments& arguments) {
-  const auto report = find_report(arguments);
-  if (!report) return fail(report.error());
-  print(db::format_property_report(*report, arguments.history.output_format()));
+  const auto report = SIPPLAB_TRY_OR(fail, find_report(arguments));
+  print(db::format_property_report(report, arguments.history.output_format()));
   return kSuccess;
 }
 
@@ -152,24 +145,15 @@ std::optional<std::string> write_pictures(const PropertyArguments& arguments, co
 }
 
 const char* text_of(bench::ProgramVerdict verdict) {
-  switch (verdict) {
-    case bench::ProgramVerdict::kHolds:
-      return "holds by now";
-    case bench::ProgramVerdict::kFails:
-      return "still fails";
-    case bench::ProgramVerdict::kNotRun:
-      break;
-  }
-  return "not run: it is not there any more";
+  constexpr const char* kNames[] = {"holds by now", "still fails", "not run: its program is missing"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 int run_replay(const PropertyArguments& arguments) {
-  const auto report = find_report(arguments);
-  if (!report) return fail(report.error());
-  const db::PropertyRun& run = report->run;
+  const auto report = SIPPLAB_TRY_OR(fail, find_report(arguments));
+  const db::PropertyRun& run = report.run;
   if (run.status != "failed") {
-    return fail(kBadUsage,
-                fmt::format("property run {} {}, expected one that failed", report->id, run.status));
+    return fail(fmt::format("property run {} {}, expected one that failed", report.id, run.status));
   }
   const fs::path program = program_of(arguments, run.room);
   const std::string command = bench::replay_command(program, run.reproduce);
@@ -179,22 +163,21 @@ int run_replay(const PropertyArguments& arguments) {
     planned = bench::replay_case(*plan_case, [](const Instance& instance, const PlannerOptions& options) {
       return plan(instance, options);
     });
-    if (const auto error = write_pictures(arguments, *plan_case, *planned)) return fail(kBadUsage, *error);
+    if (const auto error = write_pictures(arguments, *plan_case, *planned)) return fail(*error);
   } else if (arguments.instance_file || arguments.svg) {
-    return fail(kBadUsage,
-                fmt::format("property run {} planned no case, expected one to write or draw", report->id));
+    return fail(fmt::format("property run {} planned no case, expected one to write or draw", report.id));
   }
   const bench::ProgramVerdict property = bench::replay_program(program, run.reproduce);
 
   if (arguments.history.json) {
     nlohmann::ordered_json json;
-    json["id"] = report->id;
+    json["id"] = report.id;
     json["title"] = run.title;
     json["counterexample"] = minimal;
     json["command"] = command;
     json["plan"] = planned ? nlohmann::ordered_json(planned->text) : nlohmann::ordered_json();
     json["property"] = text_of(property);
-    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    print_json(json);
   } else {
     print(fmt::format("{}\n\n{}\ncommand   {}\n", run.title, minimal, command));
     if (planned) print(fmt::format("plan      {}\n", planned->text));
@@ -202,13 +185,6 @@ int run_replay(const PropertyArguments& arguments) {
   }
   if ((planned && !planned->holds) || property == bench::ProgramVerdict::kFails) return kNegativeVerdict;
   return property == bench::ProgramVerdict::kHolds ? kSuccess : kInconclusive;
-}
-
-CLI::App* add_subcommand(CLI::App& property, const std::string& name, const std::string& description,
-                         PropertyArguments& arguments) {
-  CLI::App* command = property.add_subcommand(name, description);
-  arguments.history.add_to(*command);
-  return command;
 }
 
 void add_run_argument(CLI::App& command, PropertyArguments& arguments) {
@@ -227,30 +203,29 @@ void add_run_argument(CLI::App& command, PropertyArguments& arguments) {
 Command add_property_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<PropertyArguments>();
   arguments->program = invocation.program;
-  CLI::App* property =
-      program.add_subcommand("property", "results of the properties, and counterexamples again");
+  CLI::App* property = program.add_subcommand("property", "record, list and replay property runs");
   property->require_subcommand(1);
 
   CLI::App* record =
-      add_subcommand(*property, "record", "take a log of property runs into the history", *arguments);
-  record->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+      arguments->history.add_command(*property, "record", "record a log of property runs in the history");
+  record->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
   record->add_option("--mutant", arguments->mutant, "name of the bug that was planted in the planner");
   CLI::App* totals =
-      add_subcommand(*property, "totals", "sum up a log; exit code 1 with failures in it", *arguments);
-  totals->add_option("log", arguments->log, "what SIPPLAB_PROPERTY_LOG named")->required();
+      arguments->history.add_command(*property, "totals", "sum up a log; exit code 1 if it has failures");
+  totals->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
 
-  CLI::App* list = add_subcommand(*property, "list", "the newest run of each property", *arguments);
+  CLI::App* list = arguments->history.add_command(*property, "list", "the newest run of each property");
   list->add_option("--room", arguments->room, "only properties of this program");
   list->add_flag("--failed", arguments->failed, "only failures and crashes");
-  list->add_flag("--all", arguments->all, "every run, newest first, those with planted bugs too");
-  list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
+  list->add_flag("--all", arguments->all, "every run, newest first, including those with planted bugs");
+  list->add_option("--limit", arguments->limit, "most rows to show; 0: all")->capture_default_str();
   CLI::App* show =
-      add_subcommand(*property, "show", "one run, with its classes and counterexample", *arguments);
+      arguments->history.add_command(*property, "show", "one run, with its classes and counterexample");
   add_run_argument(*show, *arguments);
-  CLI::App* replay = add_subcommand(*property, "replay",
-                                    "try a counterexample again; exit code 1 where it still fails, 0 where "
-                                    "it holds, 3 where its program is not there",
-                                    *arguments);
+  CLI::App* replay =
+      arguments->history.add_command(*property, "replay",
+                                     "try a counterexample again; exit code 1 if it still fails, 0 if "
+                                     "it holds, 3 if its program is not there");
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");

@@ -28,33 +28,32 @@ struct ReportArguments {
 };
 
 int run_report(const ReportArguments& arguments) {
-  const auto data = bench::read_report(db::database_path(arguments.database), arguments.run, arguments.base);
-  if (!data) return fail(data.error());
-  const bool comparable = !data->against_base.cells.empty();
+  const auto data = SIPPLAB_TRY_OR(
+      fail, bench::read_report(db::database_path(arguments.database), arguments.run, arguments.base));
+  const bool comparable = !data.against_base.cells.empty();
   const std::vector<bench::DensityChart> charts =
-      bench::density_charts(data->run, comparable ? data->base : std::nullopt);
-  std::vector<std::pair<std::string, std::string>> files{{"index.html", bench::report_page(*data, charts)}};
+      bench::density_charts(data.run, comparable ? data.base : std::nullopt);
+  std::vector<std::pair<std::string, std::string>> files{{"index.html", bench::report_page(data, charts)}};
   for (const bench::DensityChart& density : charts) {
     files.emplace_back(density.name + ".svg", bench::svg(density.chart, bench::SvgUse::kFile));
   }
   std::error_code error;
   std::filesystem::create_directories(arguments.folder, error);
-  if (error)
-    return fail(kBadUsage, arguments.folder + ": " + error.message() + ", expected a folder to write to");
+  if (error) return fail(arguments.folder + ": " + error.message() + ", expected a folder to write to");
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
   for (const auto& [name, text] : files) {
     const std::string path = (std::filesystem::path(arguments.folder) / name).string();
-    if (const auto failure = write_file(path, text)) return fail(kBadUsage, failure->message());
+    if (const auto failure = write_file(path, text)) return fail(failure->message());
     names.push_back(path);
     if (!arguments.json) print(path + "\n");
   }
   if (arguments.json) {
     nlohmann::ordered_json document;
-    document["run"] = data->run.run.uuid;
+    document["run"] = data.run.run.uuid;
     document["base"] =
-        data->base ? nlohmann::ordered_json(data->base->run.uuid) : nlohmann::ordered_json(nullptr);
+        data.base ? nlohmann::ordered_json(data.base->run.uuid) : nlohmann::ordered_json(nullptr);
     document["files"] = names;
-    print(document.dump(2) + "\n");
+    print_json(document);
   }
   return kSuccess;
 }
@@ -67,13 +66,14 @@ Command add_report_command(CLI::App& program) {
       program.add_subcommand("report", "write a run as one HTML page, with pictures beside it");
   command->add_option("run", arguments->run, "UUID, its first four or more digits, or latest")
       ->capture_default_str();
-  command->add_option("--base", arguments->base, "run to compare with; default: the one of its suite before")
+  command
+      ->add_option("--base", arguments->base, "run to compare with; default: the previous run of its suite")
       ->type_name("RUN");
-  command->add_option("-o,--output", arguments->folder, "folder, made if it is missing")
+  command->add_option("-o,--output", arguments->folder, "folder to write, created if missing")
       ->required()
       ->type_name("DIR");
   add_database_flag(*command, arguments->database);
-  command->add_flag("--json", arguments->json, "print one JSON document: what was written");
+  command->add_flag("--json", arguments->json, "print the written files as one JSON document");
   return {command, [arguments] { return run_report(*arguments); }};
 }
 

@@ -29,7 +29,7 @@ int print_report(const bench::Report& report, const ReportFlags& flags) {
   }
   if (flags.junit) {
     if (const auto error = write_file(*flags.junit, bench::report_junit(report))) {
-      return fail(kBadUsage, error->message());
+      return fail(error->message());
     }
   }
   return exit_code(report.judgement.all.verdict);

@@ -15,6 +15,7 @@
 #include "bench/present/paper_report.hpp"
 #include "bench/sweep/shard.hpp"
 #include "db/database.hpp"
+#include "db/json_text.hpp"
 #include "db/queries.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
@@ -49,7 +50,7 @@ int write_page(const std::string& folder, const std::vector<bench::MeasuredCell>
   };
   for (const auto& [name, text] : files) {
     if (const auto failed = write_file((fs::path(folder) / name).string(), text)) {
-      return fail(kBadUsage, failed->message());
+      return fail(failed->message());
     }
   }
   return kSuccess;
@@ -57,34 +58,30 @@ int write_page(const std::string& folder, const std::vector<bench::MeasuredCell>
 
 /// Prints and writes what a run that is in the history reproduces.
 int judge(const ReproduceArguments& arguments, const fs::path& database, const std::string& run) {
-  auto opened = db::Database::open_read_only(database);
-  if (!opened) return fail(opened.error());
-  const auto uuid = db::resolve_run(*opened, run);
-  if (!uuid) return fail(uuid.error());
-  const auto report = db::show_run(*opened, *uuid);
-  if (!report) return fail(report.error());
-  const auto cells = bench::measured_cells(database, *uuid);
-  if (!cells) return fail(cells.error());
-  if (cells->empty()) {
+  auto opened = SIPPLAB_TRY_OR(fail, db::Database::open_read_only(database));
+  const auto uuid = SIPPLAB_TRY_OR(fail, db::resolve_run(opened, run));
+  const auto report = SIPPLAB_TRY_OR(fail, db::show_run(opened, uuid));
+  const auto cells = SIPPLAB_TRY_OR(fail, bench::measured_cells(database, uuid));
+  if (cells.empty()) {
     return fail(kNothingComparable,
                 fmt::format("sipplab: run {} has no cell of the paper, expected one of suite paper "
                             "or paper-quick",
-                            *uuid));
+                            uuid));
   }
-  if (const std::string& method = cells->front().method; method != bench::kPaperMethod) {
+  if (const std::string& method = cells.front().method; method != bench::kPaperMethod) {
     return fail(kNothingComparable,
                 fmt::format("sipplab: run {} is of {}, expected {}, with which the paper was "
                             "measured",
-                            *uuid, method, bench::kPaperMethod));
+                            uuid, method, bench::kPaperMethod));
   }
-  const std::string source = source_of(report->run);
-  print(arguments.json ? bench::reproduction_json(*cells, *uuid).dump(2) + "\n"
-                       : source + "\n\n" + bench::reproduction_text(*cells));
+  const std::string source = source_of(report.run);
+  print(arguments.json ? db::json_text(bench::reproduction_json(cells, uuid))
+                       : source + "\n\n" + bench::reproduction_text(cells));
   if (arguments.folder) {
-    if (const int code = write_page(*arguments.folder, *cells, source); code != kSuccess) return code;
+    if (const int code = write_page(*arguments.folder, cells, source); code != kSuccess) return code;
     diagnose("written: " + (fs::path(*arguments.folder) / "index.html").string());
   }
-  return bench::is_reproduced(*cells) ? kSuccess : kNegativeVerdict;
+  return bench::is_reproduced(cells) ? kSuccess : kNegativeVerdict;
 }
 
 int run_reproduce(const ReproduceArguments& given) {
@@ -100,9 +97,9 @@ int run_reproduce(const ReproduceArguments& given) {
 
 void add_flags(CLI::App& command, ReproduceArguments& arguments) {
   BenchArguments& sweep = arguments.sweep;
-  command.add_flag("--quick", arguments.quick, "decisive cells on forty instances, in some minutes");
+  command.add_flag("--quick", arguments.quick, "only the decisive cells, on forty instances; takes minutes");
   CLI::Option* recorded =
-      command.add_option("--run", arguments.run, "plan nothing: judge this run of the history, or `latest`")
+      command.add_option("--run", arguments.run, "judge a recorded run (or `latest`) instead of planning")
           ->type_name("RUN");
   command
       .add_option("--instances", sweep.archive,
@@ -124,7 +121,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots))
       ->excludes(recorded);
-  command.add_option("--seed", sweep.seed, "of instances and random orders")
+  command.add_option("--seed", sweep.seed, "seed of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str()
       ->excludes(recorded);
@@ -148,11 +145,11 @@ Command add_reproduce_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<ReproduceArguments>();
   arguments->sweep.invocation = invocation;
   CLI::App* reproduce =
-      program.add_subcommand("reproduce", "a published experiment again, beside its figures");
+      program.add_subcommand("reproduce", "repeat a published experiment and compare with its figures");
   reproduce->require_subcommand(1);
   CLI::App* paper = reproduce->add_subcommand(
       "aamas2018",
-      "Andreychuk and Yakovlev (AAMAS 2018), Figure 1 and Table 1; exit code 1 where something differs");
+      "Andreychuk and Yakovlev (AAMAS 2018), Figure 1 and Table 1; exit code 1 if something differs");
   add_flags(*paper, *arguments);
   return {reproduce, [arguments] { return run_reproduce(*arguments); }};
 }

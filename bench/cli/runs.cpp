@@ -29,32 +29,28 @@ int change_exclusion(const RunsArguments& arguments) {
   const auto path = db::database_path(arguments.history.database);
   // Opened for writing, a missing file would become an empty history.
   if (const auto existing = db::Database::open_read_only(path); !existing) return fail(existing.error());
-  auto database = db::Database::open(path);
-  if (!database) return fail(database.error());
-  const auto done = arguments.exclude ? db::exclude_run(*database, *arguments.exclude, *arguments.reason)
-                                      : db::include_run(*database, *arguments.include);
-  if (!done) return fail(done.error());
+  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path));
+  SIPPLAB_TRY_OR(fail, arguments.exclude ? db::exclude_run(database, *arguments.exclude, *arguments.reason)
+                                         : db::include_run(database, *arguments.include));
   if (arguments.history.output_format() == db::OutputFormat::kJson) {
     nlohmann::ordered_json json;
     json["run"] = arguments.exclude ? *arguments.exclude : *arguments.include;
     json["excluded"] = arguments.exclude.has_value();
-    print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    print_json(json);
   }
   return kSuccess;
 }
 
 int run_runs(const RunsArguments& arguments) {
   if (arguments.exclude || arguments.include) return change_exclusion(arguments);
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
   db::RunFilter filter;
   filter.kind = arguments.kind;
   filter.suite = arguments.suite;
   filter.limit = arguments.all ? 0 : arguments.limit;
   filter.include_excluded = arguments.all;
-  const auto runs = db::list_runs(*database, filter);
-  if (!runs) return fail(runs.error());
-  print(db::format_runs(*runs, arguments.history.output_format()));
+  const auto runs = SIPPLAB_TRY_OR(fail, db::list_runs(database, filter));
+  print(db::format_runs(runs, arguments.history.output_format()));
   return kSuccess;
 }
 
@@ -67,14 +63,14 @@ Command add_runs_command(CLI::App& program) {
   command->add_option("--kind", arguments->kind, "runs of this kind; default: sweeps and imported reports")
       ->check(CLI::IsMember({"sweep", "report", "property", "fuzz", "gate", "all"}));
   command->add_option("--suite", arguments->suite, "only runs of this suite, room or target");
-  command->add_option("--limit", arguments->limit, "newest runs shown")->capture_default_str();
-  command->add_flag("--all", arguments->all, "all runs, excluded ones too");
+  command->add_option("--limit", arguments->limit, "number of newest runs to show")->capture_default_str();
+  command->add_flag("--all", arguments->all, "show all runs, including excluded ones");
   CLI::Option* exclude =
       command->add_option("--exclude", arguments->exclude, "leave RUN out of comparisons")->type_name("RUN");
   CLI::Option* reason =
       command->add_option("--reason", arguments->reason, "why it is excluded")->needs(exclude);
   exclude->needs(reason);
-  command->add_option("--include", arguments->include, "take an exclusion back")
+  command->add_option("--include", arguments->include, "include an excluded run again")
       ->type_name("RUN")
       ->excludes(exclude);
   return {command, [arguments] { return run_runs(*arguments); }};

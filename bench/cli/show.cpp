@@ -17,11 +17,9 @@ struct ShowArguments {
 };
 
 int run_show(const ShowArguments& arguments) {
-  auto database = db::Database::open_read_only(db::database_path(arguments.history.database));
-  if (!database) return fail(database.error());
-  const auto report = db::show_run(*database, arguments.run);
-  if (!report) return fail(report.error());
-  print(db::format_run_report(*report, arguments.history.output_format()));
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
+  const auto report = SIPPLAB_TRY_OR(fail, db::show_run(database, arguments.run));
+  print(db::format_run_report(report, arguments.history.output_format()));
   return kSuccess;
 }
 

@@ -47,19 +47,18 @@ int list_views(const SqlArguments& arguments) {
 
 int run_sql_command(const SqlArguments& arguments) {
   if (arguments.list) return list_views(arguments);
-  if (arguments.query.empty())
-    return fail(kBadUsage, "sipplab: no query, expected a SELECT statement or --list");
+  if (arguments.query.empty()) return bad_usage("no query, expected a SELECT statement or --list");
   std::vector<std::pair<std::string, std::string>> parameters;
   for (const std::string& text : arguments.parameters) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-      return fail(kBadUsage, "sipplab: --param " + in_quotes(text) + ", expected NAME=VALUE");
+      return bad_usage("--param " + in_quotes(text) + ", expected NAME=VALUE");
     }
     parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
-  const auto table = db::run_sql(db::database_path(arguments.history.database), arguments.query, parameters);
-  if (!table) return fail(table.error());
-  print(db::format(*table, arguments.history.output_format()));
+  const auto table = SIPPLAB_TRY_OR(
+      fail, db::run_sql(db::database_path(arguments.history.database), arguments.query, parameters));
+  arguments.history.show(table);
   return kSuccess;
 }
 
@@ -68,7 +67,7 @@ int run_sql_command(const SqlArguments& arguments) {
 Command add_sql_command(CLI::App& program) {
   auto arguments = std::make_shared<SqlArguments>();
   CLI::App* command =
-      program.add_subcommand("sql", "ask the history in SQL; --list tells the views and an example of each");
+      program.add_subcommand("sql", "query the history in SQL; --list shows the views with examples");
   arguments->history.add_to(*command);
   CLI::Option* query = command->add_option("query", arguments->query, "one SELECT statement");
   command->add_flag("--list", arguments->list, "list the views, with an example of each")->excludes(query);

@@ -11,6 +11,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/present/trend_text.hpp"
 #include "db/database.hpp"
+#include "db/json_text.hpp"
 #include "db/trends.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
@@ -37,35 +38,32 @@ struct TrendArguments {
 int run_trend(const TrendArguments& arguments) {
   db::TrendQuery query;
   query.metric = db::find_trend_metric(arguments.metric);
-  const auto filter = parse_case_filter(arguments.cases);
-  if (!filter) return fail(kBadUsage, "sipplab: " + filter.error());
+  const auto filter = SIPPLAB_TRY_OR(bad_usage, parse_case_filter(arguments.cases));
   if (!query.metric->of_case &&
       (!arguments.cases.empty() || arguments.suite || arguments.branch || arguments.machine)) {
-    return fail(kBadUsage, "sipplab: " + arguments.metric +
-                               " is not of a case: expected no --case, --suite, --branch or --machine");
+    return bad_usage(arguments.metric +
+                     " is not of a case: expected no --case, --suite, --branch or --machine");
   }
-  query.cases = *filter;
+  query.cases = filter;
   query.suite = arguments.suite;
   query.branch = arguments.branch;
   query.machine = arguments.machine;
-  auto database = db::Database::open_read_only(db::database_path(arguments.database));
-  if (!database) return fail(database.error());
-  auto series = db::read_trend(*database, query);
-  if (!series) return fail(series.error());
-  if (series->empty()) {
+  auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.database));
+  auto series = SIPPLAB_TRY_OR(fail, db::read_trend(database, query));
+  if (series.empty()) {
     const char* expected = query.metric->of_case
                                ? " of such a case, suite, branch and machine; `sipplab sql 'SELECT DISTINCT "
                                  "case_id, environment, robots, ssi_s FROM v_run_cells'` lists cases"
                                : " of any commit, expected runs that were recorded in a git checkout";
-    return fail(kNothingComparable, database->path().string() + ": no " + arguments.metric + expected);
+    return fail(kNothingComparable, database.path().string() + ": no " + arguments.metric + expected);
   }
-  db::mark_changes(*series, *query.metric, arguments.rules);
+  db::mark_changes(series, *query.metric, arguments.rules);
   if (arguments.svg) {
-    const std::string picture = bench::svg(bench::trend_chart(*query.metric, *series), bench::SvgUse::kFile);
-    if (const auto error = write_file(*arguments.svg, picture)) return fail(kBadUsage, error->message());
+    const std::string picture = bench::svg(bench::trend_chart(*query.metric, series), bench::SvgUse::kFile);
+    if (const auto error = write_file(*arguments.svg, picture)) return fail(error->message());
   }
-  print(arguments.json ? bench::trend_json(*query.metric, *series).dump(2) + "\n"
-                       : bench::trend_text(*query.metric, *series, arguments.rows));
+  print(arguments.json ? db::json_text(bench::trend_json(*query.metric, series))
+                       : bench::trend_text(*query.metric, series, arguments.rows));
   return kSuccess;
 }
 
@@ -92,19 +90,20 @@ Command add_trend_command(CLI::App& program) {
   add_case_flag(*command, arguments->cases);
   command->add_option("--suite", arguments->suite, "only runs of this suite");
   command->add_option("--branch", arguments->branch, "only runs of a checkout of this branch");
-  command->add_option("--machine", arguments->machine, "only this host, or beginning of a fingerprint");
-  command->add_option("--rows", arguments->rows, "newest versions shown of a single case")
+  command->add_option("--machine", arguments->machine,
+                      "only this host, or this beginning of a machine fingerprint");
+  command->add_option("--rows", arguments->rows, "number of newest versions to show of a single case")
       ->capture_default_str();
   command
       ->add_option("--min-segment", arguments->rules.search.min_segment,
-                   "versions between two changes, at least")
+                   "least number of versions between two changes")
       ->check(CLI::Range(2, 1'000))
       ->capture_default_str();
   command
       ->add_option("--min-effect", arguments->rules.min_effect,
                    "smallest change marked, 0.05 is 5 % (of a rate: 5 points); default by metric")
       ->check(real_between(0, kGreatestEffect));
-  command->add_option("--seed", arguments->rules.search.seed, "of the permutation tests")
+  command->add_option("--seed", arguments->rules.search.seed, "seed of the permutation tests")
       ->capture_default_str();
   command->add_option("--svg", arguments->svg, "write a picture")->type_name("FILE");
   add_database_flag(*command, arguments->database);

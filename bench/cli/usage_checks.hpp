@@ -11,19 +11,19 @@ namespace sipplab::cli {
 /// and numbers that do not fit: the library underneath lets -1 through as the largest number there is.
 void refuse_false_counts(CLI::App& program);
 
-/// Before parsing: one line where a list on the command line has an element of no characters, as in
+/// Before parsing: one line if a list on the command line has an element of no characters, as in
 /// --ssi 5,,9, which the library underneath would leave out. Else empty.
 std::string empty_element_error(const CLI::App& program, int argc, const char* const* argv);
 
-/// After parsing: one line where an option is given without a value, as in --db "$UNSET". Else empty.
+/// After parsing: one line if an option is given without a value, as in --db "$UNSET". Else empty.
 std::string empty_value_error(const CLI::App& program);
 
-/// After parsing: one line where a file that would be written is another one that was named, be it read,
+/// After parsing: one line if a file that would be written is another one that was named, be it read,
 /// written as well, or the history itself, which would be lost. Else empty.
 std::string overwrite_error(const CLI::App& program, std::filesystem::path (*history)());
 
-/// After parsing: one line where a flag was given that changes nothing without another one, such as
-/// --objective where nothing is improved. Else empty.
+/// After parsing: one line if a flag was given that changes nothing without another one, such as
+/// --objective without improvement. Else empty.
 std::string idle_flag_error(const CLI::App& program);
 
 }  // namespace sipplab::cli

@@ -11,6 +11,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "db/json_text.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
@@ -30,7 +31,7 @@ struct ValidateArguments {
   bool json = false;
 };
 
-/// The validator's opinion and, where it was asked for, what is proven.
+/// The validator's opinion and, if it was asked for, what is proven.
 struct Verdict {
   ValidationReport report;
   std::optional<Certification> certification;
@@ -69,7 +70,7 @@ std::string to_json(const Instance& instance, const SolutionDocument& document,
                          {"undecided", certification->undecided}};
   }
   json["violations"] = std::move(violations);
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return db::json_text(json);
 }
 
 std::string summary(const SolutionDocument& document, const ValidationOptions& options,
@@ -102,18 +103,16 @@ int exit_code(const Verdict& verdict) {
 }
 
 int run_validate(const ValidateArguments& arguments) {
-  const Expected<LoadedInstance, std::string> loaded = arguments.instance.load();
-  if (!loaded) return fail(kBadUsage, loaded.error());
-  const Input<SolutionDocument> solution = load_solution(arguments.solution, loaded->instance);
-  if (!solution) return fail(kBadUsage, solution.error().message());
-  const SolutionDocument& document = *solution;
+  const auto loaded = SIPPLAB_TRY_OR(fail, arguments.instance.load());
+  const auto solution = SIPPLAB_TRY_OR(fail, load_solution(arguments.solution, loaded.instance));
+  const SolutionDocument& document = solution;
   if (document.status != "solved") {
-    return fail(kBadUsage, arguments.solution + ": no solution in it (status " + document.status +
-                               "), expected a solved instance");
+    return fail(arguments.solution + ": no solution in it (status " + document.status +
+                "), expected a solved instance");
   }
 
   ValidationOptions options;
-  PlannerOptions planned_with = loaded->options.applied_to({});
+  PlannerOptions planned_with = loaded.options.applied_to({});
   planned_with.ssi_s = options.ssi_s;
   planned_with = arguments.motion.stated().applied_to(document.options.value_or(planned_with));
   options.ssi_s = planned_with.ssi_s;
@@ -121,25 +120,23 @@ int run_validate(const ValidateArguments& arguments) {
   if (document.ssi_kept_s) options.ssi_s = *document.ssi_kept_s;  // all that it promises
   if (arguments.ssi) options.ssi_s = parse_ssi(*arguments.ssi).value_or(0);
   if (options.ssi_s > 0) options.order = document.order;
-  if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded->instance.agents.empty()) {
-    return fail(kBadUsage,
-                arguments.solution + ": no priority order in it, expected one to check --ssi against");
+  if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded.instance.agents.empty()) {
+    return fail(arguments.solution + ": no priority order in it, expected one to check --ssi against");
   }
 
   Verdict verdict;
-  verdict.report = validate(loaded->instance, document.solution, options);
-  if (arguments.certify) verdict.certification = certify(loaded->instance, document.solution);
+  verdict.report = validate(loaded.instance, document.solution, options);
+  if (arguments.certify) verdict.certification = certify(loaded.instance, document.solution);
   const ValidationReport& report = verdict.report;
   if (arguments.picture.file) {
     SvgOptions picture;
     picture.subtitle = report.valid() ? "valid" : "invalid: " + report.violations.front().message;
     picture.animation_speed = arguments.picture.animation_speed();
-    const std::string text = draw_svg(loaded->instance, document.solution, report, picture);
-    if (const auto error = write_file(*arguments.picture.file, text))
-      return fail(kBadUsage, error->message());
+    const std::string text = draw_svg(loaded.instance, document.solution, report, picture);
+    if (const auto error = write_file(*arguments.picture.file, text)) return fail(error->message());
   }
   if (arguments.json) {
-    print(to_json(loaded->instance, document, options, verdict));
+    print(to_json(loaded.instance, document, options, verdict));
   } else {
     print(summary(document, options, report) +
           (verdict.certification ? summary(*verdict.certification) : std::string()));
@@ -162,7 +159,7 @@ Command add_validate_command(CLI::App& program) {
   arguments->motion.add_to(*command, {OptionGroup::kMotion});
   arguments->picture.add_to(*command, "draw the solution and its violations there");
   command->add_flag("--certify", arguments->certify,
-                    "prove for each pair that it is safe or collides; exit code 3 where neither is proven");
+                    "prove for each pair that it is safe or collides; exit code 3 if neither is proven");
   command->add_flag("--json", arguments->json, "print one JSON document");
   return {command, [arguments] { return run_validate(*arguments); }};
 }

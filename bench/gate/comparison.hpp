@@ -23,7 +23,7 @@ struct GateRequest {
   PairBudget budget;
   double tolerance = 0.05;          ///< a slowdown that must be ruled out for "equivalent"
   bool allow_changes = false;       ///< other plans are meant
-  bool treat_as_different = false;  ///< judge times even where both programs are the same file
+  bool treat_as_different = false;  ///< judge times even if both programs are the same file
 };
 
 struct GateResult {

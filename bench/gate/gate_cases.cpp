@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include "bench/judge/case_words.hpp"
+#include "planner/core/try.hpp"
+#include "planner/io/text_file.hpp"
 #include "planner/io/write_instance.hpp"
 
 namespace sipplab::bench {
@@ -16,19 +17,12 @@ namespace {
 /// Every kind of case once: what the timed cells leave out.
 constexpr const char* kExactSuite = "smoke";
 
-bool write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  return file.good();
-}
-
 }  // namespace
 
 Expected<GateCases, std::string> GateCases::make(const std::string& suite, std::uint64_t seed,
                                                  bool timed_only) {
-  Expected<TemporaryFolder, std::string> folder = TemporaryFolder::make();
-  if (!folder) return Unexpected{folder.error()};
-  GateCases cases(std::move(*folder));
+  auto folder = SIPPLAB_TRY(TemporaryFolder::make());
+  GateCases cases(std::move(folder));
   std::string error = cases.add_suite(suite, seed, true);
   if (error.empty() && !timed_only && suite != kExactSuite) error = cases.add_suite(kExactSuite, seed, false);
   if (!error.empty()) return Unexpected{error};
@@ -58,9 +52,8 @@ std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bo
       if (is_new) {
         files_.push_back((folder_.path() / fmt::format("{}.xml", files_.size())).string());
         hashes_.push_back(prepared.row.content_hash);
-        if (!write_file(files_.back(), write_instance_xml(prepared.instance))) {
-          return folder_.path().string() + ": cannot be written to, expected room for a few small files";
-        }
+        const auto error = write_file(files_.back(), write_instance_xml(prepared.instance));
+        if (error) return error->message();
       }
       cell.jobs.push_back(jobs_.size());
       jobs_.push_back({cells_.size(), place->second, prepared.row});
@@ -76,15 +69,13 @@ Expected<std::size_t, std::string> GateCases::hand_over(WorkerProcess& worker, b
   for (const GateJob& job : jobs_) {
     if (!all && !cells_[job.cell].timed) break;
     for (; files <= job.instance; ++files) {
-      const Expected<std::string, std::string> hash = worker.load(files_[files]);
-      if (!hash) return Unexpected{hash.error()};
-      if (*hash != hashes_[files]) {
+      const auto hash = SIPPLAB_TRY(worker.load(files_[files]));
+      if (hash != hashes_[files]) {
         return Unexpected{job.row.name + ": the builds read the same file as different instances, expected " +
                           "equal content hashes"};
       }
     }
-    const Expected<std::size_t, std::string> number = worker.add_job(job.instance, cells_[job.cell].options);
-    if (!number) return Unexpected{number.error()};
+    SIPPLAB_TRY(worker.add_job(job.instance, cells_[job.cell].options));
     ++count;
   }
   return count;

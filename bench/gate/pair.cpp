@@ -6,6 +6,7 @@
 
 #include "bench/interrupt.hpp"
 #include "bench/judge/change.hpp"
+#include "planner/core/try.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -37,27 +38,22 @@ Expected<WorkerPair, std::string> start_pair(const GateBuilds& builds, const Gat
   const WorkerProcess::Start base_start{builds.base, "base", core, {}};
   const WorkerProcess::Start head_start{builds.head, "head", core, builds.head_extras};
   const bool head_first = random.below(2) == 1;
-  auto first = WorkerProcess::start(head_first ? head_start : base_start);
-  if (!first) return Unexpected{first.error()};
-  auto second = WorkerProcess::start(head_first ? base_start : head_start);
-  if (!second) return Unexpected{second.error()};
-  for (WorkerProcess* worker : {&*first, &*second}) {
-    const auto done = cases.hand_over(*worker, all);
-    if (!done) return Unexpected{done.error()};
+  auto first = SIPPLAB_TRY(WorkerProcess::start(head_first ? head_start : base_start));
+  auto second = SIPPLAB_TRY(WorkerProcess::start(head_first ? base_start : head_start));
+  for (WorkerProcess* worker : {&first, &second}) {
+    SIPPLAB_TRY(cases.hand_over(*worker, all));
   }
-  if (head_first) return WorkerPair{std::move(*second), std::move(*first)};
-  return WorkerPair{std::move(*first), std::move(*second)};
+  if (head_first) return WorkerPair{std::move(second), std::move(first)};
+  return WorkerPair{std::move(first), std::move(second)};
 }
 
 Expected<FirstAnswers, std::string> plan_all(WorkerPair& workers, const GateCases& cases) {
   FirstAnswers answers;
   for (std::size_t job = 0; job < cases.jobs().size(); ++job) {
-    const auto base = workers.base.plan(job, true);
-    if (!base) return Unexpected{base.error()};
-    const auto head = workers.head.plan(job, true);
-    if (!head) return Unexpected{head.error()};
-    answers.base.push_back(base->row);
-    answers.head.push_back(head->row);
+    const auto base = SIPPLAB_TRY(workers.base.plan(job, true));
+    const auto head = SIPPLAB_TRY(workers.head.plan(job, true));
+    answers.base.push_back(base.row);
+    answers.head.push_back(head.row);
     if (interrupted_by() != 0) return Unexpected{std::string("interrupted")};
   }
   return answers;
@@ -85,12 +81,10 @@ Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases&
     random.shuffle(jobs);
     for (const std::size_t job : jobs) {
       const bool head_first = random.below(2) == 1;
-      auto first = (head_first ? workers.head : workers.base).plan(job, false);
-      if (!first) return Unexpected{first.error()};
-      auto second = (head_first ? workers.base : workers.head).plan(job, false);
-      if (!second) return Unexpected{second.error()};
-      const WorkerAnswer& base = head_first ? *second : *first;
-      const WorkerAnswer& head = head_first ? *first : *second;
+      auto first = SIPPLAB_TRY((head_first ? workers.head : workers.base).plan(job, false));
+      auto second = SIPPLAB_TRY((head_first ? workers.base : workers.head).plan(job, false));
+      const WorkerAnswer& base = head_first ? second : first;
+      const WorkerAnswer& head = head_first ? first : second;
       note_repetition(expected.base[job], base.row, job, false);
       note_repetition(expected.head[job], head.row, job, true);
       times.log_ratios[cases.jobs()[job].cell].push_back(log_ratio(base, head));

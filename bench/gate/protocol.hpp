@@ -28,7 +28,7 @@ struct WorkerGreeting {
 
 /// What one planning of a job gave.
 struct WorkerAnswer {
-  db::ResultRow row;        ///< `valid` only where the job's plan was checked
+  db::ResultRow row;        ///< `valid` only if the job's plan was checked
   std::int64_t cpu_ns = 0;  ///< processor time of planning
 };
 

@@ -1,4 +1,5 @@
 #include "bench/gate/report.hpp"
+#include "db/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -85,7 +86,7 @@ std::string noise_json(const GateRequest& request, const GateResult& result) {
   for (const Difference* row : time_rows(result)) {
     json["rows"].push_back(difference_json(result.judgement, *row));
   }
-  return json.dump(2) + "\n";
+  return db::json_text(json);
 }
 
 }  // namespace sipplab::bench

@@ -8,7 +8,7 @@
 
 namespace sipplab::bench {
 
-/// `run`: UUID in the history, empty where it was not recorded.
+/// `run`: UUID in the history, empty if it was not recorded.
 Report gate_report(const GateRequest& request, const GateResult& result, const std::string& run);
 
 /// "noise: ...": what was found and what it allows to see, two lines.

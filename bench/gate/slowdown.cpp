@@ -13,7 +13,7 @@ namespace {
 /// A planning a thousand times as long is a mistake in a script.
 constexpr double kLargestShare = 1000;
 
-/// The number that a variable of the environment holds; none where it holds anything else.
+/// The number that a variable of the environment holds; none if it holds anything else.
 template <class Number>
 std::optional<Number> number_in(const char* variable) {
   const char* value = std::getenv(variable);

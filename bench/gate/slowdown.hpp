@@ -13,7 +13,7 @@ namespace sipplab::bench {
 inline constexpr const char* kSlowdownVariable = "SIPPLAB_INJECT_SLOWDOWN";
 inline constexpr const char* kChangeVariable = "SIPPLAB_INJECT_CHANGE";
 
-/// The share that the environment asks for, 0 where it asks for none or for nonsense.
+/// The share that the environment asks for, 0 if it asks for none or for nonsense.
 double injected_slowdown();
 
 /// The instance that the environment wants planned otherwise, by the order of loading.

@@ -1,4 +1,5 @@
 #include "bench/gate/worker_process.hpp"
+#include "planner/core/try.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ void close_if_open(int descriptor) {
     cpu_set_t set;
     CPU_ZERO(&set);
     CPU_SET(static_cast<std::size_t>(*core), &set);
-    sched_setaffinity(0, sizeof set, &set);  // where it is refused, times are noisier and still right
+    sched_setaffinity(0, sizeof set, &set);  // if it is refused, times are noisier and still right
   }
   if (dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0) execve(program, arguments, variables);
   constexpr int kCannotExecute = 127;  // as shells do
@@ -151,23 +152,19 @@ WorkerProcess::~WorkerProcess() {
 }
 
 Expected<std::string, std::string> WorkerProcess::load(const std::string& file) {
-  const Expected<nlohmann::json, std::string> answer = ask({{"load", file}});
-  if (!answer) return Unexpected{answer.error()};
-  return answer->value("content_hash", "");
+  const auto answer = SIPPLAB_TRY(ask({{"load", file}}));
+  return answer.value("content_hash", "");
 }
 
 Expected<std::size_t, std::string> WorkerProcess::add_job(std::size_t instance,
                                                           const PlannerOptions& options) {
-  const Expected<nlohmann::json, std::string> answer =
-      ask({{"instance", instance}, {"options", to_json(options)}});
-  if (!answer) return Unexpected{answer.error()};
-  return answer->value("job", std::size_t{0});
+  const auto answer = SIPPLAB_TRY(ask({{"instance", instance}, {"options", to_json(options)}}));
+  return answer.value("job", std::size_t{0});
 }
 
 Expected<WorkerAnswer, std::string> WorkerProcess::plan(std::size_t job, bool check) {
-  const Expected<nlohmann::json, std::string> answer = ask({{"plan", job}, {"check", check}});
-  if (!answer) return Unexpected{answer.error()};
-  Expected<WorkerAnswer, std::string> read = answer_from_json(*answer);
+  const auto answer = SIPPLAB_TRY(ask({{"plan", job}, {"check", check}}));
+  Expected<WorkerAnswer, std::string> read = answer_from_json(answer);
   if (!read) return Unexpected{complaint(read.error())};
   return read;
 }

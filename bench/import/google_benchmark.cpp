@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "bench/sweep/run_info.hpp"
+#include "planner/core/try.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -244,11 +245,10 @@ Expected<std::vector<db::Measurement>, std::string> read_benchmarks(const Json& 
       const std::string aggregate = aggregate_of(object, names);
       const std::string name = base_name(object, aggregate);
       if (aggregate != wanted || before.contains(name)) continue;
-      auto measurement = read_benchmark(object, name);
-      if (!measurement) return Unexpected{measurement.error()};
-      measurement->repetition = repetitions[name]++;
-      measurement->aggregate = aggregate;
-      measurements.push_back(std::move(*measurement));
+      auto measurement = SIPPLAB_TRY(read_benchmark(object, name));
+      measurement.repetition = repetitions[name]++;
+      measurement.aggregate = aggregate;
+      measurements.push_back(std::move(measurement));
     }
   }
   return measurements;

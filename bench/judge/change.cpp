@@ -21,19 +21,8 @@ std::string validity_text(const db::ResultRow& row) {
 }  // namespace
 
 std::string_view name(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::kStatus:
-      return "status";
-    case ChangeKind::kValidity:
-      return "validity";
-    case ChangeKind::kPlan:
-      return "plan";
-    case ChangeKind::kWork:
-      return "work";
-    case ChangeKind::kRepetition:
-      return "repetition";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"status", "validity", "plan", "work", "repetition"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 bool is_cut_short(const db::ResultRow& row) { return row.limit == "time"; }

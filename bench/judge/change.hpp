@@ -30,7 +30,7 @@ struct Change {
 /// another plan and other work then.
 bool is_cut_short(const db::ResultRow& row);
 
-/// What differs; a plan that differs says nothing about its work. None where all is alike.
+/// What differs; a plan that differs says nothing about its work. None if all is alike.
 /// Results that the clock cut short are compared in status alone.
 std::optional<Change> change(const db::ResultRow& base, const db::ResultRow& head);
 

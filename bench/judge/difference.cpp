@@ -14,7 +14,7 @@ namespace statistics = db::statistics;
 
 double solved(const db::ResultRow& row) { return row.status == db::ResultStatus::kSolved ? 1 : 0; }
 
-/// None where the planning says nothing of the metric.
+/// None if the planning says nothing of the metric.
 std::optional<double> pair_of(const Metric& metric, const db::PairedCell& cell,
                               const db::PairedResult& result) {
   const double base = metric.value(result.base);
@@ -62,7 +62,7 @@ Verdict verdict(const Difference& row) {
 }  // namespace
 
 // Thresholds: chance of calling equal rates of success different in some cell; the same for flowtimes, which
-// a change of plans always moves, and 1 %, so that a certain but tiny loss fails nobody.
+// a change of plans always moves, and 1 %, so that a certain but tiny loss fails no build.
 const Metric kSuccess = {.name = "success",
                          .test = Test::kSigns,
                          .level = 0.05,

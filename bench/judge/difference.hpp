@@ -73,7 +73,7 @@ struct Difference {
   std::vector<double> pairs = {};
   std::vector<double> fresh_pairs = {};  ///< of those that were to confirm
   double effect = 0;
-  /// Interval of the effect, infinite where the pairs are too few. Of a mean: 95 %. Of a median: each
+  /// Interval of the effect, infinite if the pairs are too few. Of a mean: 95 %. Of a median: each
   /// bound with 95 % confidence.
   double at_least = -std::numeric_limits<double>::infinity();
   double at_most = std::numeric_limits<double>::infinity();
@@ -103,7 +103,7 @@ void judge_rows(const std::vector<Difference*>& rows);
 /// Whether fresh pairs are worth their time: the first look found a slowdown, or cannot rule one out.
 bool needs_second_look(const Difference& row, double tolerance);
 
-/// The verdict of a row of kFreshPairs, after its fresh pairs where it needed some.
+/// The verdict of a row of kFreshPairs, after its fresh pairs if it needed some.
 void second_look(Difference& row, double tolerance);
 
 }  // namespace sipplab::bench

@@ -23,7 +23,7 @@ double at_least(std::size_t k, std::size_t n) {
   return 1 - at_least(n - k + 1, n);
 }
 
-/// Fewest of n pairs above zero that reach the level; n + 1 where none does.
+/// Fewest of n pairs above zero that reach the level; n + 1 if none does.
 std::size_t needed_above(std::size_t n, double level) {
   std::size_t k = n + 1;
   while (k > 0 && at_least(k - 1, n) <= level) --k;

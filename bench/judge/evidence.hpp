@@ -27,11 +27,11 @@ inline constexpr double kFloorInStandardErrors = 3;
 /// from pair to pair as the median over instances of medians does.
 double interquartile_mean(std::vector<double> values);
 
-/// Probability of at least so many values above zero where above and below are equally
+/// Probability of at least this many values above zero if above and below are equally
 /// likely; 1 for no values. Zeros are left out.
 double slower_p_value(const std::vector<double>& values);
 
-/// With confidence 1 - kBoundLevel the median of the distribution that the values come from
+/// With confidence 1 - kBoundLevel, the median of the distribution that the values come from
 /// is not above this; infinity for fewer than 5 values.
 double upper_bound(std::vector<double> values);
 

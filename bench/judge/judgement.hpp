@@ -20,7 +20,7 @@ struct Finding {
   std::size_t plannings = 1;
 };
 
-/// A cell, or all of them together. Counts are plannings where nothing else is said.
+/// A cell, or all of them together. Counts are plannings unless stated otherwise.
 struct Judged {
   std::string name;           ///< for people
   std::size_t instances = 0;  ///< of different content
@@ -31,7 +31,7 @@ struct Judged {
   std::size_t head_solved = 0;
   std::size_t both_solved = 0;
   std::size_t newly_invalid = 0;  ///< plans of the head
-  /// Mean time where an unsolved planning counts as twice the limit; none without a limit.
+  /// Mean time, an unsolved planning counting as twice the limit (PAR-2); none without a limit.
   std::optional<double> base_par2_s;
   std::optional<double> head_par2_s;
   Verdict verdict = Verdict::kSame;
@@ -46,7 +46,7 @@ struct JudgeOptions {
   Verdict changed = Verdict::kChanged;
   bool quality = true;       ///< longer flowtimes judge
   double tolerance = 0.05;   ///< a slowdown that must be ruled out
-  std::string times_excuse;  ///< why slowdowns are noise where behaviour is the same; empty where they count
+  std::string times_excuse;  ///< why slowdowns are noise if behaviour is the same; empty if they count
 };
 
 struct Judgement {
@@ -57,7 +57,7 @@ struct Judgement {
   /// All rows of a metric after each other, that over all cells first.
   std::vector<Difference> differences;
 
-  /// None where the metric was not measured there.
+  /// None if the metric was not measured there.
   const Difference* find(const Metric& metric, std::optional<std::size_t> cell) const;
   const Judged& at(std::optional<std::size_t> cell) const { return cell ? cells[*cell] : all; }
   const db::PairedResult& result(const Finding& finding) const {
@@ -65,7 +65,7 @@ struct Judgement {
   }
 };
 
-/// Changes and metrics of all cells with results, without a verdict. `names`: of the cells, where they should
+/// Changes and metrics of all cells with results, without a verdict. `names`: of the cells, if they should
 /// not be those of case_words().
 Judgement measured(std::vector<db::PairedCell> cells, std::vector<std::string> names = {});
 

@@ -8,6 +8,7 @@
 #include "bench/judge/junit.hpp"
 #include "bench/judge/replay_command.hpp"
 #include "bench/judge/text_table.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -19,7 +20,7 @@ constexpr const char* kNothing = "-";
 
 std::string p_text(double p_value) { return p_value < 1 ? fmt::format("{:.2g}", p_value) : "1"; }
 
-/// Effect and p value; "-" where nothing was measured.
+/// Effect and p value; "-" if nothing was measured.
 std::string effect_text(const Difference* row) {
   return row == nullptr || row->pairs.empty() ? kNothing : percent_more(row->effect, 1);
 }
@@ -59,7 +60,7 @@ TextRow time_row(const Judgement& judgement, const Difference& row) {
           std::string(name(row.verdict.value_or(Verdict::kSame)))};
 }
 
-/// Empty where there are no rows. Columns that say nothing are left out.
+/// Empty if there are no rows. Columns that say nothing are left out.
 std::vector<TextRow> table(TextRow heading, std::vector<TextRow> rows) {
   if (rows.empty()) return {};
   rows.insert(rows.begin(), std::move(heading));
@@ -97,7 +98,7 @@ std::string unpaired_text(const Judgement& judgement) {
 }
 
 constexpr const char* kBehaviourNotes =
-    "instances: of different content, and in brackets how many times they were planned, where that is more: "
+    "instances: of different content, and in brackets how many times they were planned, if more: "
     "repetitions and equal files are one observation, and so counted in lost, gained and p\n"
     "p: adjusted for the number of cells (Holm); flowtime, makespan, expansions: mean change over instances "
     "that both solved\n";
@@ -105,7 +106,7 @@ constexpr const char* kSweepTimeNote =
     "time: median over instances of single plannings that were not interleaved; it informs and judges "
     "nothing, `sipplab gate` does\n";
 
-/// Empty where no pairs of processes were timed.
+/// Empty if no pairs of processes were timed.
 std::vector<TextRow> time_table(const Judgement& judgement) {
   std::vector<TextRow> times;
   for (const Difference& row : judgement.differences) {
@@ -246,7 +247,7 @@ std::string report_json(const Report& report) {
   for (const Difference& row : judgement.differences) {
     json["differences"].push_back(difference_json(judgement, row));
   }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return db::json_text(json);
 }
 
 std::string report_junit(const Report& report) {

@@ -19,7 +19,7 @@ struct Report {
   std::string head;
   nlohmann::ordered_json details = {};  ///< members of the JSON document, beside those of the judgement
   std::string notes = {};               ///< lines below the tables
-  std::string all_findings = {};        ///< where those are that are not listed
+  std::string all_findings = {};        ///< where the findings are that are not listed
   std::size_t listed = 10;              ///< findings that text and Markdown show; JSON has all of them
 };
 
@@ -35,7 +35,7 @@ std::vector<TextRow> behaviour_table(const Judgement& judgement);
 /// One row as JSON; logarithms as ratios less one.
 nlohmann::ordered_json difference_json(const Judgement& judgement, const Difference& row);
 
-/// "+3.10 %", "-0.20 %": from a logarithm, with so many digits; "-" where it is not finite.
+/// "+3.10 %", "-0.20 %": from a logarithm, with `digits` decimals; "-" if it is not finite.
 std::string percent_more(double log_ratio, int digits = 2);
 
 }  // namespace sipplab::bench

@@ -86,12 +86,12 @@ std::vector<Encounter> random_encounters() {
   };
   std::vector<Encounter> encounters;
   while (encounters.size() < kInputs) {
-    const Displacement way(place(), place());
+    const Displacement step(place(), place());
     const Displacement other(place(), place());
-    if (way.length == 0 || other.length == 0) continue;
+    if (step.length == 0 || other.length == 0) continue;
     const double begin_s = random.unit();
     encounters.push_back(
-        {Move(way, 1), MovingDisk::moving(other, begin_s, begin_s + other.length, kDefaultRadiusCells)});
+        {Move(step, 1), MovingDisk::moving(other, begin_s, begin_s + other.length, kDefaultRadiusCells)});
   }
   return encounters;
 }
@@ -132,7 +132,7 @@ struct Crowd {
     }
   }
 
-  /// False, with the reason in `state`, where there is no crowd to measure in.
+  /// False, with the reason in `state`, if there is no crowd to measure in.
   bool ready(benchmark::State& state) const {
     if (result.status == PlanStatus::kSolved) return true;
     state.SkipWithError("the crowd was not solved");
@@ -172,13 +172,12 @@ void earliest_departure(benchmark::State& state) {
   std::size_t next = 0;
   for ([[maybe_unused]] auto iteration : state) {
     const Move& move = clear[next++ % clear.size()];
-    benchmark::DoNotOptimize(
-        crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
+    benchmark::DoNotOptimize(crowd.reservations.earliest_departure(move, kDefaultRadiusCells, 0, kUntilS));
   }
 }
 BENCHMARK(earliest_departure)->Name("reservation/earliest_departure");
 
-/// One goal and one cell after the other, whose ways are long: nothing is known of the goal yet.
+/// One goal and one far cell after the other: nothing is known of the goal yet.
 void static_detour(benchmark::State& state) {
   const GridMap map = warehouse_map();
   const LineOfSight lines(map, kDefaultRadiusCells);
@@ -235,11 +234,11 @@ BENCHMARK(search_with_detours)
     ->Arg(0)
     ->Unit(benchmark::kMicrosecond);
 
-/// Argument: 1 with the way pulled tight at the end.
+/// Argument: 1 with the path pulled tight at the end.
 void weighted_search(benchmark::State& state) {
-  constexpr double kBendingWeight = 1.5;  // large enough to leave bends behind
+  constexpr double kTurningWeight = 1.5;  // large enough to leave needless turning points
   SippOptions options;
-  options.weight = kBendingWeight;
+  options.weight = kTurningWeight;
   options.elastic = state.range(0) != 0;
   search_in_a_crowd(state, options);
 }

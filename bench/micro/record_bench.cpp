@@ -2,15 +2,13 @@
 // writes them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/sweep_case.hpp"
+#include "bench/temporary_folder.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
 
@@ -18,25 +16,6 @@ namespace sipplab {
 namespace {
 
 constexpr int kResults = 100;
-
-/// A folder that vanishes with everything in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "sipplab-record-XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 db::ResultRow sample_row(int index) {
   db::ResultRow row;
@@ -55,8 +34,9 @@ db::ResultRow sample_row(int index) {
 }
 
 void record_cases(benchmark::State& state) {
-  const ScratchFolder folder;
-  auto database = db::Database::open(folder.path() / "history.db");
+  const auto folder = bench::TemporaryFolder::make();
+  if (!folder) return state.SkipWithError(folder.error().c_str());
+  auto database = db::Database::open(folder->path() / "history.db");
   if (!database) return state.SkipWithError(database.error().message.c_str());
   db::RunInfo info;
   info.suite = "micro";

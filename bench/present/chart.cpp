@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "bench/present/numbers.hpp"
 #include "planner/io/svg_canvas.hpp"
@@ -62,7 +63,7 @@ std::vector<double> linear_ticks(const Range& range) {
   return ticks;
 }
 
-/// Powers of ten; with 2 and 5 between them where there are few; round numbers where there
+/// Powers of ten; with 2 and 5 between them if there are few; round numbers if there
 /// would be hardly any.
 std::vector<double> log_ticks(const Range& range) {
   constexpr double kHardlyAny = 8;
@@ -243,6 +244,15 @@ class Drawing {
 
 std::string omission_note(std::size_t lines) {
   return lines > kMostChartLines ? fmt::format(" (the first {} of {} lines)", kMostChartLines, lines) : "";
+}
+
+void label_points(Chart& chart, std::size_t most) {
+  std::set<double> values;
+  for (const ChartLine& line : chart.lines) {
+    for (const auto& [x, y] : line.points) values.insert(x);
+  }
+  if (values.size() > most) return;
+  for (const double x : values) chart.x_ticks.emplace_back(x, short_number(x));
 }
 
 std::string svg(const Chart& chart, SvgUse use) { return Drawing(chart).svg(use); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,7 +14,10 @@ namespace sipplab::bench {
 /// More lines than this are no picture: there are as many colours, and the legend ends with the plot.
 inline constexpr std::size_t kMostChartLines = 7;
 
-/// " (the first 7 of 36 lines)", or nothing where all are drawn.
+/// More numbers of robots than this are not all written below the x axis.
+inline constexpr std::size_t kMostNumbersOfRobots = 10;
+
+/// " (the first 7 of 36 lines)", or nothing if all are drawn.
 std::string omission_note(std::size_t lines);
 
 struct ChartMark {
@@ -43,6 +47,9 @@ struct Chart {
   int width = 560;   ///< pixels
   int height = 320;  ///< pixels
 };
+
+/// Labels the x axis at each x of a point; with more than `most` different ones at round numbers.
+void label_points(Chart& chart, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 enum class SvgUse {
   kFile,    ///< on a white page of its own

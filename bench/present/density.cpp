@@ -14,7 +14,9 @@ namespace {
 
 /// What stays the same within a picture.
 std::string method_of(const db::CellSummary& cell) {
-  return fmt::format("{}, {}, {}, {}", cell.environment, cell.reschedule, cell.order, cell.planner);
+  const db::CaseInfo& of = cell.parameters;
+  return fmt::format("{}, {}, {}, {}", of.environment, of.text("reschedule"), of.text("initial_order"),
+                     of.planner);
 }
 
 std::string file_name(const std::string& kind, const std::string& method) {
@@ -40,7 +42,7 @@ Curves curves_of(const db::RunReport& run, const std::string& method, bool runti
     std::optional<double> value = runtime ? cell.median_planning_time_s : cell.success_rate;
     if (!value) continue;
     if (runtime) *value *= kMillisecondsPerSecond;
-    auto& [sum, count] = sums[cell.ssi_s][static_cast<double>(cell.robots)];
+    auto& [sum, count] = sums[cell.parameters.real("ssi_s")][static_cast<double>(cell.parameters.robots)];
     sum += *value;
     ++count;
   }
@@ -64,29 +66,23 @@ Chart chart_of(const db::RunReport& run, const std::optional<db::RunReport>& bas
   }
   const Curves curves = curves_of(run, method, runtime);
   const Curves before = base ? curves_of(*base, method, runtime) : Curves{};
-  std::set<double> robots;
   int colour = 0;
   for (const auto& [ssi_s, points] : curves) {
     ChartLine line;
     line.label = "ssi " + ssi_text(ssi_s);
     line.points = points;
     line.colour = colour;
-    for (const auto& [x, y] : points) robots.insert(x);
     chart.lines.push_back(line);
     const auto old = before.find(ssi_s);
     if (old != before.end()) {
       line.label = line.label + ", base";
       line.points = old->second;
-      for (const auto& [x, y] : line.points) robots.insert(x);
       line.dashed = true;
       chart.lines.push_back(std::move(line));
     }
     ++colour;
   }
-  constexpr std::size_t kMostTicks = 10;
-  if (robots.size() <= kMostTicks) {
-    for (const double x : robots) chart.x_ticks.emplace_back(x, short_number(x));
-  }
+  label_points(chart, kMostNumbersOfRobots);
   return chart;
 }
 

@@ -13,7 +13,7 @@ inline constexpr std::size_t kHashLength = 10;
 
 /// Four significant digits, whole numbers below ten millions: "0.8571", "12.34", "123456", "1.2e+07".
 std::string short_number(double value);
-/// With its unit: seconds become ms or us where that reads better.
+/// With its unit: seconds become ms or us if that reads better.
 std::string with_unit(double value, std::string_view unit);
 /// "+3.1 %", "-12 %"; of a rate's difference "+3.1 points".
 std::string signed_share(double share, bool points);

@@ -187,7 +187,7 @@ class Page {
     close_table();
   }
 
-  /// The first rows, with a word where there are more.
+  /// The first rows, with a note if there are more.
   db::Table shortened(db::Table table, std::size_t most, const char* view) {
     if (table.rows.size() <= most) return table;
     table.rows.resize(most);

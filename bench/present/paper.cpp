@@ -11,6 +11,7 @@
 #include "bench/present/named_row.hpp"
 #include "bench/present/numbers.hpp"
 #include "db/queries.hpp"
+#include "planner/core/try.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -108,7 +109,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kFigureRobots[] = {8, 16, 32, 48, 64, 96, 128, 160, 192, 256, 320};
 constexpr double kFigureSsiS[] = {1, 3, 5, 7, 9};
 constexpr std::int64_t kTableRobots[] = {16, 32, 64, 96, 128, 160, 192};
-/// From so many robots on orders have to be changed, in most instances of the warehouse.
+/// From this number of robots on, most instances of the warehouse need another order.
 constexpr std::int64_t kDense = 96;
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
@@ -284,15 +285,14 @@ Standing success_standing(const MeasuredCell& cell, double paper) {
 
 /// How the planner of the run is called; of several, the paper's.
 db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
-  const auto table = db::run_sql(
+  const auto table = SIPPLAB_TRY(db::run_sql(
       database,
       fmt::format("SELECT DISTINCT planner AS method FROM v_results WHERE {} ORDER BY 1", kPaperMaps),
-      {{"run", run}});
-  if (!table) return Unexpected{table.error()};
+      {{"run", run}}));
   std::string names;
-  for (const auto& row : table->rows) {
-    const std::string name = NamedRow(*table, row).text("method");
-    if (table->rows.size() == 1 || name == kPaperMethod) return name;
+  for (const auto& row : table.rows) {
+    const std::string name = NamedRow(table, row).text("method");
+    if (table.rows.size() == 1 || name == kPaperMethod) return name;
     names += (names.empty() ? "" : ", ") + name;
   }
   if (names.empty()) return std::string(kPaperMethod);  // nothing was measured
@@ -310,17 +310,16 @@ db::statistics::ConfidenceInterval MeasuredCell::success_interval() const {
 
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
                                                      const std::string& run) {
-  const auto method = method_of(database, run);
-  if (!method) return Unexpected{method.error()};
-  const auto table = db::run_sql(database, paper_cells_sql(), {{"run", run}, {"method", *method}});
-  if (!table) return Unexpected{table.error()};
+  const auto method = SIPPLAB_TRY(method_of(database, run));
+  const auto table =
+      SIPPLAB_TRY(db::run_sql(database, paper_cells_sql(), {{"run", run}, {"method", method}}));
   std::vector<MeasuredCell> cells;
-  for (const auto& values : table->rows) {
-    const NamedRow row(*table, values);
+  for (const auto& values : table.rows) {
+    const NamedRow row(table, values);
     MeasuredCell cell;
     cell.environment = row.text("environment");
     if (cell.environment != "empty" && cell.environment != "warehouse") continue;
-    cell.method = *method;
+    cell.method = method;
     cell.robots = row.integer("robots");
     cell.ssi_s = row.real("ssi_s");
     cell.reschedule = row.text("reschedule");
@@ -369,17 +368,8 @@ const std::vector<PaperRow>& paper_table() {
 }
 
 std::string_view name(Standing standing) {
-  switch (standing) {
-    case Standing::kReproduced:
-      return "reproduced";
-    case Standing::kBetter:
-      return "better";
-    case Standing::kDiffers:
-      return "differs";
-    case Standing::kNotMeasured:
-      break;
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"reproduced", "better", "differs", ""};
+  return kNames[static_cast<std::size_t>(standing)];
 }
 
 std::vector<TableLine> compare_with_table(const std::vector<MeasuredCell>& cells) {

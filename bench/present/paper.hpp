@@ -27,7 +27,7 @@ struct MeasuredCell {
   std::int64_t runs = 0;
   std::int64_t solved = 0;
   double mean_seconds = 0;  ///< over all runs, as the paper has it
-  /// Over solved runs; missing where there is none.
+  /// Over solved runs; missing if there is none.
   std::optional<double> mean_makespan_s;
   std::optional<double> mean_flowtime_s;
   /// Half the width of the 95 % interval of these means, by the scatter over instances; infinite below
@@ -50,7 +50,7 @@ inline constexpr std::int64_t kFewestInstances = 5;
 
 /// The cells of a run, by environment, re-scheduling, start-safe interval and robots. Other maps than
 /// the paper's are left out. Of a run with several planners, weights or neighbourhoods: those of any-angle
-/// over 8 neighbours, as the paper has it; an error where there are none.
+/// over 8 neighbours, as the paper has it; an error if there are none.
 db::Result<std::vector<MeasuredCell>> measured_cells(const std::filesystem::path& database,
                                                      const std::string& run);
 
@@ -66,7 +66,7 @@ struct PaperRow {
 const std::vector<PaperRow>& paper_table();
 
 /// How a figure of ours stands to the paper's, which was measured on other instances. It is
-/// reproduced where its 95 % interval holds the paper's, and a flowtime within kFlowtimeShare
+/// reproduced if its 95 % interval holds the paper's, and a flowtime within kFlowtimeShare
 /// or a makespan within kMakespanShare of the paper's as well; else it is better or it differs. A cost over
 /// so few instances that it has no interval is not judged.
 enum class Standing { kReproduced, kBetter, kDiffers, kNotMeasured };
@@ -87,7 +87,7 @@ std::vector<TableLine> compare_with_table(const std::vector<MeasuredCell>& cells
 struct Claim {
   std::string id;        ///< "fig1-a"
   std::string sentence;  ///< in our words
-  /// Missing where the cells that it speaks of were not measured.
+  /// Missing if the cells that it speaks of were not measured.
   std::optional<bool> holds;
   std::string figures;  ///< that decided
 };

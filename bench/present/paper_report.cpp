@@ -119,14 +119,10 @@ constexpr const char* kLegend =
     "are not judged. "
     "Seconds are of another machine there and judge nothing.";
 
-/// Points in order, and a tick for each number of robots.
+/// Points in order, and a label for each number of robots.
 void finish(Chart& chart) {
-  std::set<double> robots;
-  for (ChartLine& line : chart.lines) {
-    std::sort(line.points.begin(), line.points.end());
-    for (const auto& [count, value] : line.points) robots.insert(count);
-  }
-  for (const double count : robots) chart.x_ticks.emplace_back(count, fmt::format("{:.0f}", count));
+  for (ChartLine& line : chart.lines) std::sort(line.points.begin(), line.points.end());
+  label_points(chart);
 }
 
 }  // namespace

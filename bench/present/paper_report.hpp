@@ -14,7 +14,7 @@ namespace sipplab::bench {
 std::string reproduction_text(const std::vector<MeasuredCell>& cells);
 
 /// The same for programs: "run", "reproduced", and arrays "cells" (as measured), "table1" (beside the
-/// paper, with the standing of each figure) and "claims" ("holds" is null where nothing was measured).
+/// paper, with the standing of each figure) and "claims" ("holds" is null if nothing was measured).
 nlohmann::ordered_json reproduction_json(const std::vector<MeasuredCell>& cells, const std::string& run);
 
 /// Success over the number of robots, one line for each start-safe interval.

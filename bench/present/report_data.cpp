@@ -8,6 +8,7 @@
 #include "bench/present/named_row.hpp"
 #include "db/comparisons.hpp"
 #include "db/database.hpp"
+#include "planner/core/try.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -31,40 +32,35 @@ db::Result<db::Done> read_tables(const std::filesystem::path& path, ReportData& 
   const std::pair<const char*, db::Table*> questions[] = {
       {kProperties, &data.properties}, {kFuzzRuns, &data.fuzz_runs}, {kFindings, &data.findings}};
   for (const auto& [sql, answer] : questions) {
-    auto table = db::run_sql(path, sql);
-    if (!table) return Unexpected{table.error()};
-    *answer = std::move(*table);
+    *answer = SIPPLAB_TRY(db::run_sql(path, sql));
   }
   return db::Done{};
 }
 
 /// A run as a side of a comparison, be it excluded or not.
 db::Result<db::ComparisonSide> side_of(const std::filesystem::path& path, const db::RunSummary& run) {
-  const auto table = db::run_sql(path, "SELECT id FROM run WHERE uuid = :run", {{"run", run.uuid}});
-  if (!table) return Unexpected{table.error()};
+  const auto table =
+      SIPPLAB_TRY(db::run_sql(path, "SELECT id FROM run WHERE uuid = :run", {{"run", run.uuid}}));
   db::ComparisonSide side{run.uuid, run.commit_hash, {}};
-  for (const auto& row : table->rows) side.run_ids.push_back(NamedRow(*table, row).integer("id"));
+  for (const auto& row : table.rows) side.run_ids.push_back(NamedRow(table, row).integer("id"));
   return side;
 }
 
 db::Result<Judgement> judged_against_base(const std::filesystem::path& path, db::Database& database,
                                           const ReportData& data) {
-  const auto base = side_of(path, data.base->run);
-  if (!base) return Unexpected{base.error()};
-  const auto head = side_of(path, data.run.run);
-  if (!head) return Unexpected{head.error()};
-  auto cells = db::paired_cells(database, *base, *head);
-  if (!cells) return Unexpected{cells.error()};
-  Judgement judgement = measured(std::move(*cells));
+  const auto base = SIPPLAB_TRY(side_of(path, data.base->run));
+  const auto head = SIPPLAB_TRY(side_of(path, data.run.run));
+  auto cells = SIPPLAB_TRY(db::paired_cells(database, base, head));
+  Judgement judgement = measured(std::move(cells));
   judge(judgement, {});
   return judgement;
 }
 
 db::Result<std::set<std::int64_t>> cases_of(const std::filesystem::path& path, const std::string& run) {
-  const auto table = db::run_sql(path, "SELECT case_id FROM v_run_cells WHERE run = :run", {{"run", run}});
-  if (!table) return Unexpected{table.error()};
+  const auto table =
+      SIPPLAB_TRY(db::run_sql(path, "SELECT case_id FROM v_run_cells WHERE run = :run", {{"run", run}}));
   std::set<std::int64_t> cases;
-  for (const auto& row : table->rows) cases.insert(NamedRow(*table, row).integer("case_id"));
+  for (const auto& row : table.rows) cases.insert(NamedRow(table, row).integer("case_id"));
   return cases;
 }
 
@@ -77,9 +73,8 @@ db::Result<db::Done> read_trends(db::Database& database, const std::set<std::int
       db::TrendQuery query;
       query.metric = trend.metric;
       query.cases.id = id;
-      auto series = db::read_trend(database, query);
-      if (!series) return Unexpected{series.error()};
-      for (db::TrendSeries& one : *series) trend.series.push_back(std::move(one));
+      auto series = SIPPLAB_TRY(db::read_trend(database, query));
+      for (db::TrendSeries& one : series) trend.series.push_back(std::move(one));
     }
     db::mark_changes(trend.series, *trend.metric);
     data.trends.push_back(std::move(trend));
@@ -91,30 +86,20 @@ db::Result<db::Done> read_trends(db::Database& database, const std::set<std::int
 
 db::Result<ReportData> read_report(const std::filesystem::path& path, const std::string& run,
                                    const std::optional<std::string>& base) {
-  auto database = db::Database::open_read_only(path);
-  if (!database) return Unexpected{database.error()};
+  auto database = SIPPLAB_TRY(db::Database::open_read_only(path));
   ReportData data;
-  auto shown = db::show_run(*database, run);
-  if (!shown) return Unexpected{shown.error()};
-  data.run = std::move(*shown);
+  data.run = SIPPLAB_TRY(db::show_run(database, run));
   std::optional<std::string> base_run = base;
   if (!base_run) {
-    auto before = db::run_before(*database, data.run.run.uuid);
-    if (!before) return Unexpected{before.error()};
-    base_run = *before;
+    base_run = SIPPLAB_TRY(db::run_before(database, data.run.run.uuid));
   }
   if (base_run) {
-    auto other = db::show_run(*database, *base_run);
-    if (!other) return Unexpected{other.error()};
-    data.base = std::move(*other);
-    auto judgement = judged_against_base(path, *database, data);
-    if (!judgement) return Unexpected{judgement.error()};
-    data.against_base = std::move(*judgement);
+    data.base = SIPPLAB_TRY(db::show_run(database, *base_run));
+    data.against_base = SIPPLAB_TRY(judged_against_base(path, database, data));
   }
-  if (auto done = read_tables(path, data); !done) return Unexpected{done.error()};
-  const auto cases = cases_of(path, data.run.run.uuid);
-  if (!cases) return Unexpected{cases.error()};
-  if (auto done = read_trends(*database, *cases, data); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(read_tables(path, data));
+  const auto cases = SIPPLAB_TRY(cases_of(path, data.run.run.uuid));
+  SIPPLAB_TRY(read_trends(database, cases, data));
   return data;
 }
 

@@ -24,8 +24,8 @@ struct ReportTrend {
 struct ReportData {
   db::RunReport run;
   std::optional<db::RunReport> base;
-  Judgement against_base;  ///< without cells where there is no base, or no case that both have
-  db::Table properties;    ///< where each one stands
+  Judgement against_base;  ///< without cells if there is no base, or no case that both have
+  db::Table properties;    ///< the newest state of each
   db::Table fuzz_runs;     ///< the newest of each target
   db::Table findings;
   std::vector<ReportTrend> trends;

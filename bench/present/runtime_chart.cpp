@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <string>
 
 #include "bench/present/numbers.hpp"
@@ -11,8 +10,6 @@
 namespace sipplab::bench {
 namespace {
 
-/// With more numbers of robots than this the axis is labelled at round numbers.
-constexpr std::size_t kMostTicks = 10;
 /// Digits of a run's UUID that tell runs apart.
 constexpr std::size_t kShownUuid = 8;
 
@@ -20,22 +17,21 @@ constexpr std::size_t kShownUuid = 8;
 using LineName = std::array<std::string, 6>;
 
 LineName name_of(const db::RunReport& run, const db::CellSummary& cell) {
-  return {cell.environment,
-          cell.planner,
-          cell.reschedule,
-          cell.order,
-          "ssi " + ssi_text(cell.ssi_s),
+  const db::CaseInfo& of = cell.parameters;
+  return {of.environment,
+          of.planner,
+          of.text("reschedule"),
+          of.text("initial_order"),
+          "ssi " + ssi_text(of.real("ssi_s")),
           "run " + run.run.uuid.substr(0, kShownUuid)};
 }
 
-bool admits(const db::CaseFilter& filter, const db::CellSummary& cell) {
+bool admits(const db::CaseFilter& filter, const db::CaseInfo& of) {
   const auto agrees = [](const auto& wanted, const auto& value) { return !wanted || *wanted == value; };
-  return agrees(filter.environment, cell.environment) && agrees(filter.robots, cell.robots) &&
-         agrees(filter.map, cell.parameters.map_spec) && agrees(filter.planner, cell.planner) &&
-         std::all_of(filter.options.begin(), filter.options.end(), [&cell](const auto& wanted) {
-           const auto option = cell.parameters.options.find(wanted.first);
-           return option != cell.parameters.options.end() && option->second == wanted.second;
-         });
+  return agrees(filter.environment, of.environment) && agrees(filter.robots, of.robots) &&
+         agrees(filter.map, of.map_spec) && agrees(filter.planner, of.planner) &&
+         std::all_of(filter.options.begin(), filter.options.end(),
+                     [&of](const auto& wanted) { return of.option(wanted.first) == wanted.second; });
 }
 
 /// The parts joined that `wanted` says, an entry for each part.
@@ -52,13 +48,11 @@ std::string joined(const LineName& name, const std::array<bool, std::tuple_size_
 Chart runtime_chart(const std::vector<db::RunReport>& runs, const db::CaseFilter& filter) {
   // Cases that differ in what no line shows, such as seeds: the mean of their medians is drawn.
   std::map<LineName, std::map<double, std::vector<double>>> lines;
-  std::set<double> robots;
   for (const db::RunReport& run : runs) {
     for (const db::CellSummary& cell : run.cells) {
-      if (!admits(filter, cell) || !cell.median_planning_time_s) continue;
-      const auto x = static_cast<double>(cell.robots);
-      robots.insert(x);
-      lines[name_of(run, cell)][x].push_back(*cell.median_planning_time_s * kMillisecondsPerSecond);
+      if (!admits(filter, cell.parameters) || !cell.median_planning_time_s) continue;
+      lines[name_of(run, cell)][static_cast<double>(cell.parameters.robots)].push_back(
+          *cell.median_planning_time_s * kMillisecondsPerSecond);
     }
   }
   const std::string omission = omission_note(lines.size());
@@ -88,9 +82,7 @@ Chart runtime_chart(const std::vector<db::RunReport>& runs, const db::CaseFilter
     }
     chart.lines.push_back(std::move(line));
   }
-  if (robots.size() <= kMostTicks) {
-    for (const double x : robots) chart.x_ticks.emplace_back(x, short_number(x));
-  }
+  label_points(chart, kMostNumbersOfRobots);
   return chart;
 }
 

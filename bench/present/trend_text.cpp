@@ -42,7 +42,7 @@ std::string label_of(const db::TrendSeries& series) {
   return series.instances.empty() ? series.label : series.label + ", " + series.instances;
 }
 
-/// "case 7", "case 7, 10 instances", or what it is where it is of no case.
+/// "case 7", "case 7, 10 instances", or its label if it is of no case.
 std::string short_label(const db::TrendSeries& series) {
   if (series.case_id == 0) return series.label;
   return fmt::format("case {}{}{}", series.case_id, series.instances.empty() ? "" : ", ", series.instances);

@@ -11,8 +11,8 @@
 
 namespace sipplab::bench {
 
-/// One block character for each value, or for the mean of neighbours where there are more
-/// than `width`; all alike where nothing varies.
+/// One block character for each value, or for the mean of neighbours if there are more
+/// than `width`; all alike if nothing varies.
 std::string sparkline(const std::vector<double>& values, std::size_t width);
 
 /// One series: its newest `rows` points. Several: one line each. Changes below.
@@ -24,7 +24,7 @@ nlohmann::ordered_json trend_json(const db::TrendMetric& metric, const std::vect
 /// x counts the versions of all series, by which it is labelled.
 Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series);
 
-/// The case in words, its instances where it has several sets of them, machine and build of times.
+/// The case in words, its instances if it has several sets of them, machine and build of times.
 std::string series_name(const db::TrendSeries& series);
 
 /// "1a2b3c4d5e", "1a2b3c4d5e+" with uncommitted changes, or "no commit".

@@ -73,7 +73,7 @@ Expected<BenchmarkFlags, std::string> initialize_benchmark(const std::vector<std
       return Unexpected{flag + ": a sweep plans each instance once per repetition and has no warm-up"};
     }
     if (auto line = check_choice(flag, value)) return Unexpected{std::move(*line)};
-    // The library ends the program with code 1 where it cannot write; nothing is cut here yet.
+    // The library ends the program with code 1 if it cannot write; nothing is cut here yet.
     if (flag == "--benchmark_out" && !std::ofstream(value, std::ios::app)) {
       return Unexpected{flag + ": " + in_quotes(value) + " cannot be written, expected a file"};
     }

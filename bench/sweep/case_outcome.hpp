@@ -24,7 +24,7 @@ class CaseOutcome {
   double mean_planning_s() const { return mean(planning_s_); }
   double mean_tries() const { return mean(tries_); }
   double mean_expansions() const { return mean(expansions_); }
-  /// Means over solved results; none where nothing was solved.
+  /// Means over solved results; none if nothing was solved.
   std::optional<double> mean_makespan_s() const { return mean_of_solved(makespan_s_); }
   std::optional<double> mean_flowtime_s() const { return mean_of_solved(flowtime_s_); }
 

@@ -19,6 +19,7 @@
 #include "bench/interrupt.hpp"
 #include "bench/program.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "planner/core/try.hpp"
 #include "planner/io/solution_io.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
@@ -367,9 +368,8 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
 }
 
 Expected<CommandPlanner, std::string> CommandPlanner::make(CommandPlannerSpec spec) {
-  Expected<TemporaryFolder, std::string> folder = TemporaryFolder::make();
-  if (!folder) return Unexpected{folder.error()};
-  return CommandPlanner(std::move(spec), std::move(*folder));
+  auto folder = SIPPLAB_TRY(TemporaryFolder::make());
+  return CommandPlanner(std::move(spec), std::move(folder));
 }
 
 Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instance,

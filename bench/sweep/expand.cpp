@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/sweep/adversarial.hpp"
+#include "planner/core/try.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/io/case_codec.hpp"
 #include "planner/solve/solve.hpp"
@@ -98,11 +99,9 @@ class Expansion {
       const auto& [map, bodies] = generated_[i];
       if (map == block.map && bodies == block.bodies && sweep_.sets[i].robots == robots) return i;
     }
-    Expected<InstanceSet, std::string> set =
-        generate_set(block.map, robots, count, request_.seed, block.bodies);
-    if (!set) return Unexpected{set.error()};
+    auto set = SIPPLAB_TRY(generate_set(block.map, robots, count, request_.seed, block.bodies));
     generated_.emplace_back(block.map, block.bodies);
-    return add_set(std::move(*set));
+    return add_set(std::move(set));
   }
 
   /// The set of the archive for a map and a number of robots, read when it is first asked
@@ -117,10 +116,9 @@ class Expansion {
     if (!std::filesystem::is_directory(folder) || std::filesystem::is_empty(folder)) {
       return std::optional<std::size_t>();
     }
-    Expected<LoadedSets, std::string> loaded = load_sets(folder.string(), {.robots = {robots}, .count = count});
-    if (!loaded) return Unexpected{loaded.error()};
-    add_notes(loaded->notes);
-    archived_.emplace_back(folder, add_set(std::move(loaded->sets.front())));
+    auto loaded = SIPPLAB_TRY(load_sets(folder.string(), {.robots = {robots}, .count = count}));
+    add_notes(loaded.notes);
+    archived_.emplace_back(folder, add_set(std::move(loaded.sets.front())));
     return std::optional(archived_.back().second);
   }
 
@@ -164,10 +162,9 @@ Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request)
                              one(request.speeds_cells_per_s), request.strict};
   std::set<std::pair<std::string, std::size_t>> seen;
   for (const std::string& folder : request.folders) {
-    Expected<LoadedSets, std::string> loaded = load_sets(folder, wanted);
-    if (!loaded) return Unexpected{loaded.error()};
-    expansion.add_notes(loaded->notes);
-    for (InstanceSet& set : loaded->sets) {
+    auto loaded = SIPPLAB_TRY(load_sets(folder, wanted));
+    expansion.add_notes(loaded.notes);
+    for (InstanceSet& set : loaded.sets) {
       if (!seen.emplace(set.environment, set.robots).second) {
         return Unexpected{folder + ": a second set " + set.environment + " with " +
                           std::to_string(set.robots) +
@@ -211,14 +208,12 @@ Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
     for (const std::size_t robots : block.robots) {
       const std::uint64_t count = request.count.value_or(suite.instances);
       if (request.archive) {
-        const auto set = expansion.archived_set(block.map, robots, count);
-        if (!set) return Unexpected{set.error()};
-        if (*set) expansion.add_cases(block, **set);
+        const auto set = SIPPLAB_TRY(expansion.archived_set(block.map, robots, count));
+        if (set) expansion.add_cases(block, *set);
         continue;
       }
-      const Expected<std::size_t, std::string> set = expansion.generated_set(block, robots, count);
-      if (!set) return Unexpected{set.error()};
-      expansion.add_cases(block, *set);
+      const auto set = SIPPLAB_TRY(expansion.generated_set(block, robots, count));
+      expansion.add_cases(block, set);
     }
   }
   return expansion.take();
@@ -227,9 +222,8 @@ Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
 }  // namespace
 
 Expected<ExpandedSweep, std::string> expand(const SweepRequest& request) {
-  Expected<ExpandedSweep, std::string> sweep = expand_all(request);
-  if (!sweep) return sweep;
-  if (const auto line = find_unplannable(*sweep)) return Unexpected{*line};
+  auto sweep = SIPPLAB_TRY(expand_all(request));
+  if (const auto line = find_unplannable(sweep)) return Unexpected{*line};
   return sweep;
 }
 

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <system_error>
 #include <utility>
 
 #include "bench/sweep/run_info.hpp"
+#include "planner/core/try.hpp"
 #include "planner/generator/generator.hpp"
 #include "planner/io/load_instance.hpp"
 #include "planner/io/text.hpp"
@@ -80,8 +81,9 @@ std::vector<fs::path> sorted_entries(const fs::path& folder, bool folders, std::
       found.push_back(entry->path());
     }
   }
+  // Digits compare as numbers: 2.xml before 10.xml.
   std::sort(found.begin(), found.end(),
-            [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });
+            [](const fs::path& a, const fs::path& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
   return found;
 }
 
@@ -196,33 +198,6 @@ std::string words_for(const Bodies& bodies) {
 
 }  // namespace
 
-bool natural_less(const std::string& a, const std::string& b) {
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (!is_digit(a[i]) || !is_digit(b[j])) {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i;
-      ++j;
-      continue;
-    }
-    while (i < a.size() && a[i] == '0') ++i;
-    while (j < b.size() && b[j] == '0') ++j;
-    std::size_t a_end = i;
-    std::size_t b_end = j;
-    while (a_end < a.size() && is_digit(a[a_end])) ++a_end;
-    while (b_end < b.size() && is_digit(b[b_end])) ++b_end;
-    if (a_end - i != b_end - j) return a_end - i < b_end - j;
-    const int order = a.compare(i, a_end - i, b, j, b_end - j);
-    if (order != 0) return order < 0;
-    i = a_end;
-    j = b_end;
-  }
-  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // "01" and "1": any order, as long as it is one
-}
-
 InstanceSet single_instance_set(std::string environment, Instance instance) {
   InstanceSet set;
   set.map_spec = environment;
@@ -238,12 +213,11 @@ InstanceSet single_instance_set(std::string environment, Instance instance) {
 Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std::size_t robots,
                                                 std::uint64_t count, std::uint64_t seed,
                                                 const Bodies& bodies) {
-  const Expected<MapSpec, std::string> spec = parse_map_spec(map_spec);
-  if (!spec) return Unexpected{spec.error()};
+  const auto spec = SIPPLAB_TRY(parse_map_spec(map_spec));
   InstanceSet set;
-  set.environment = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).stem().string()
-                                                       : map_spec.substr(0, map_spec.find(':'));
-  set.map_spec = spec->kind == MapSpec::Kind::kFile ? fs::path(spec->path).filename().string() : map_spec;
+  set.environment = spec.kind == MapSpec::Kind::kFile ? fs::path(spec.path).stem().string()
+                                                      : map_spec.substr(0, map_spec.find(':'));
+  set.map_spec = spec.kind == MapSpec::Kind::kFile ? fs::path(spec.path).filename().string() : map_spec;
   const std::string body_words = words_for(bodies);
   if (!body_words.empty()) set.environment += "-mixed";
   set.name = fmt::format("generated/seed:{}{}", seed, body_words);
@@ -257,10 +231,9 @@ Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std
     options.speeds_cells_per_s = bodies.speeds_cells_per_s;
     options.headings = bodies.headings;
     options.obstacles = bodies.obstacles;
-    Expected<Instance, std::string> instance = generate_instance(*spec, options);
-    if (!instance) return Unexpected{instance.error()};
+    auto instance = SIPPLAB_TRY(generate_instance(spec, options));
     set.instances.push_back(prepare(
-        std::move(*instance),
+        std::move(instance),
         fmt::format("{} agents:{} seed:{} index:{}{}", set.map_spec, robots, seed, index, body_words)));
   }
   set.radius_cells = common_value(set, &Agent::radius_cells, kDefaultRadiusCells);

@@ -60,7 +60,4 @@ Expected<LoadedSets, std::string> load_sets(const std::string& folder, const Fol
 /// A set of one instance that is in no file; `environment` is its map_spec and name, too.
 InstanceSet single_instance_set(std::string environment, Instance instance);
 
-/// Digits compare as numbers: "2.xml" < "10.xml".
-bool natural_less(const std::string& a, const std::string& b);
-
 }  // namespace sipplab::bench

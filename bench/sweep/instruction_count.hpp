@@ -16,7 +16,7 @@ class PerfCounter {
   PerfCounter& operator=(const PerfCounter&) = delete;
   ~PerfCounter();
 
-  /// None where the machine has no such counter or forbids it, as many virtual machines do.
+  /// None if the machine has no such counter or forbids it, as many virtual machines do.
   std::optional<std::int64_t> count() const;
 
  private:

@@ -13,7 +13,7 @@ class PeakMemory {
  public:
   /// Begins now.
   PeakMemory();
-  /// Resident bytes, with all that the process held before; none where nothing was measured.
+  /// Resident bytes, with all that the process held before; none if nothing was measured.
   std::optional<std::int64_t> bytes() const;
 
  private:

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "db/aligned.hpp"
+#include "db/json_text.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -17,7 +18,7 @@ std::string number(std::optional<double> value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
-/// A column that describes the case; shown only where it tells cases apart, the
+/// A column that describes the case; shown only if it tells cases apart, the
 /// first two always.
 struct Parameter {
   const char* title;
@@ -127,7 +128,7 @@ std::string result_json(const std::vector<SweepEntry>& entries, const std::strin
   json["database"] = database;
   json["status"] = finished ? "finished" : "aborted";
   json["cases"] = std::move(cases);
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return db::json_text(json);
 }
 
 }  // namespace sipplab::bench

@@ -14,11 +14,11 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
 /// the validator rejects has status invalid and the first violation as its message.
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result);
 
-/// Makespan, flowtime and hash of a plan, whoever made it.
+/// Makespan, flowtime and hash of a plan of any planner.
 void add_solution(const Solution& solution, db::ResultRow& row);
 
-/// The validator's verdict on a plan; where it rejects it, status invalid and the message.
-/// `rounding`: overlaps up to so many cells, and durations wrong by up to so many seconds,
+/// The validator's verdict on a plan; if it rejects the plan, status invalid and the message.
+/// `rounding`: overlaps up to this many cells, and durations wrong by up to this many seconds,
 /// are the rounding of a file and no violations.
 void add_verdict(const Instance& instance, const Solution& solution, const ValidationOptions& options,
                  db::ResultRow& row, double rounding = 0);

@@ -29,26 +29,26 @@ struct SuiteBlock {
   std::vector<OptionValues> dimensions;
   /// What is the same within a case besides; limits are the suite's.
   std::vector<PlannerOptions> planners = {PlannerOptions{}};
-  /// Seeds tried on each instance where the re-scheduling or the order is random.
+  /// Seeds tried on each instance if the re-scheduling or the order is random.
   std::uint64_t random_seeds = 1;
   Bodies bodies = {};
 };
 
 struct Suite {
-  std::string name;
-  std::string purpose;                       ///< one line
+  std::string name = {};
+  std::string purpose = {};                  ///< one line
   std::uint64_t instances = 1;               ///< per case
   double time_limit_s = kDefaultTimeLimitS;  ///< wall clock, per instance
   /// Tries after the first, per instance. Unlike the time limit it strikes at the same
-  /// point on every machine, so where it strikes first, results are repeatable.
+  /// point on every machine, so if it strikes first, results are repeatable.
   std::uint64_t max_restarts = UINT64_MAX;
-  std::vector<SuiteBlock> blocks;
+  std::vector<SuiteBlock> blocks = {};
   /// The cases of bench/sweep/adversarial.hpp, each with its own map, robots and options. Of what
   /// a user replaces, everything but map, robots and count applies.
   bool adversarial_cases = false;
 };
 
-/// smoke, gate, density, mixed, paper, paper-quick, adversarial, dense, anytime.
+/// In the order in which --help lists them.
 const std::vector<Suite>& suites();
 
 /// None when there is no suite of that name.

@@ -66,6 +66,8 @@ std::string short_case_name(const SweepCase& sweep_case) {
                      planner_label(sweep_case));
 }
 
+std::string history_key(const Option& option) { return *option.column != '\0' ? option.column : option.json; }
+
 db::Value column_value(const Option& option, const std::string& text) {
   switch (option.kind) {
     case OptionKind::kYesNo:
@@ -90,9 +92,10 @@ db::CaseInfo case_row(const SweepCase& sweep_case, OptionRows rows) {
   row.radius_cells = sweep_case.radius_cells;
   row.speed_cells_per_s = sweep_case.speed_cells_per_s;
   for (const Option& option : rows) {
-    if (*option.column != '\0') {
-      row.options[option.column] = column_value(option, option.get(sweep_case.options));
-    }
+    const bool has_column = *option.column != '\0';
+    const std::string key = history_key(option);
+    if (key.empty() || (!has_column && !differs(option, sweep_case.options))) continue;
+    row.options[key] = column_value(option, option.get(sweep_case.options));
   }
   return row;
 }
@@ -100,7 +103,7 @@ db::CaseInfo case_row(const SweepCase& sweep_case, OptionRows rows) {
 PlannerOptions options_of(const db::CaseInfo& row, OptionRows rows) {
   PlannerOptions options;
   for (const Option& option : rows) {
-    const auto value = row.options.find(option.column);
+    const auto value = row.options.find(history_key(option));
     if (value != row.options.end()) option.set(options, text_of(value->second));
   }
   return options;

@@ -39,11 +39,14 @@ std::string case_name(const SweepCase& sweep_case, bool with_seed);
 /// "warehouse, 64 robots, ssi 5, deterministic, shortest, sipplab": for a line of progress.
 std::string short_case_name(const SweepCase& sweep_case);
 
-/// The row of the history, with a column for each option that has one.
+/// The row of the history.
 db::CaseInfo case_row(const SweepCase& sweep_case, OptionRows rows = option_rows());
 /// The options of such a row.
 PlannerOptions options_of(const db::CaseInfo& row, OptionRows rows = option_rows());
-/// What a text, which the option takes, is in its column.
+/// What the history calls an option: its column, else its key in the JSON object of all that have none.
+/// Empty: it is not kept.
+std::string history_key(const Option& option);
+/// What a text, which the option takes, is there.
 db::Value column_value(const Option& option, const std::string& text);
 
 }  // namespace sipplab::bench

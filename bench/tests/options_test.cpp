@@ -1,5 +1,5 @@
-// One more row in the table of options is found in the flags, in the command that plans again and in the
-// columns of a case.
+// One more row in the table of options is found in the flags, in the command that plans again, in the label
+// and in the history.
 #include <gtest/gtest.h>
 #include <CLI/CLI.hpp>
 
@@ -11,25 +11,23 @@
 #include "bench/sweep/sweep_case.hpp"
 #include "db/rows.hpp"
 #include "db/tests/plain_case.hpp"
+#include "planner/core/number.hpp"
 
 namespace sipplab::bench {
 namespace {
 
-/// An option that is nowhere but in its row.
-double patience = 0;
-
+/// An option that is nowhere but in its row. It lies in a member that no case keeps.
 std::vector<Option> rows_and_one() {
   Option option;
   option.name = "patience";
-  option.help = "seconds";
-  option.column = "patience_s";
-  option.kind = OptionKind::kNumber;
+  option.help = "tries";
+  option.json = "patience";
+  option.kind = OptionKind::kCount;
   option.expected = "a number";
-  option.always_told = true;
-  option.get = [](const PlannerOptions&) { return format_ssi(patience); };
-  option.set = [](PlannerOptions&, std::string_view text) {
-    const std::optional<double> value = parse_ssi(text);
-    if (value) patience = *value;
+  option.get = [](const PlannerOptions& options) { return std::to_string(options.threads); };
+  option.set = [](PlannerOptions& options, std::string_view text) {
+    const auto value = parse_number<unsigned>(text);
+    options.threads = value.value_or(options.threads);
     return value.has_value();
   };
   std::vector<Option> rows(option_rows().begin(), option_rows().end());
@@ -71,32 +69,31 @@ TEST(OptionFlags, TakeSeveralValuesInASweep) {
   EXPECT_EQ(flags.values()[1].texts, std::vector<std::string>{"no"});
 }
 
-TEST(OneMoreOption, IsFoundInFlagsReplayAndColumns) {
+TEST(OneMoreOption, IsFoundInFlagsReplayLabelAndHistory) {
   const std::vector<Option> rows = rows_and_one();
   cli::OptionFlags flags;
   CLI::App app;
   flags.add_to(app, kAllGroups, false, rows);
   EXPECT_NE(app.help().find("--patience"), std::string::npos);
   EXPECT_THROW(app.parse("--patience x"), CLI::ParseError);
-  app.parse("--patience 2.5");
-  patience = 0;
-  flags.stated().applied_to({});
-  EXPECT_EQ(patience, 2.5);
-  EXPECT_NE(option_flags({}, rows).find(" --patience 2.5"), std::string::npos);
+  app.parse("--patience 25");
+  SweepCase sweep_case;
+  sweep_case.options = flags.stated().applied_to({});
+  EXPECT_EQ(sweep_case.options.threads, 25u);
+  EXPECT_EQ(option_flags(sweep_case.options, rows), option_flags(sweep_case.options) + " --patience 25");
+  EXPECT_EQ(label_of(sweep_case.options, rows), "sipplab patience:25");
 
-  const db::CaseInfo written = case_row({}, rows);
-  EXPECT_EQ(written.real("patience_s"), 2.5);
+  const db::CaseInfo written = case_row(sweep_case, rows);
   auto connection = db::sqlite::Connection::open_in_memory().value();
   db::migrate(connection, db::migrations()).value();
-  connection.execute("ALTER TABLE case_ ADD COLUMN patience_s REAL NOT NULL DEFAULT 0", "adding a column")
-      .value();
   const std::int64_t id = db::case_id(connection, written).value();
   auto select =
-      db::sqlite::Statement::prepare(connection, "SELECT * FROM v_cases WHERE case_id = ?", "asking").value();
-  ASSERT_TRUE(select.bind(id).step().value());
-  patience = 0;
-  options_of(db::read_case(select, 1), rows);
-  EXPECT_EQ(patience, 2.5) << "written, and read again";
+      db::sqlite::Statement::prepare(connection, "SELECT * FROM v_cases WHERE case_id = ?", "asking", id)
+          .value();
+  ASSERT_TRUE(select.step().value());
+  EXPECT_EQ(db::read_case(select, 1), written);
+  EXPECT_EQ(options_of(db::read_case(select, 1), rows).threads, 25u) << "written, and read again";
+  EXPECT_EQ(case_row({}, rows), case_row({})) << "a case from before the option is the same";
 }
 
 TEST(Columns, AreThoseOfTheSchema) {
@@ -104,7 +101,7 @@ TEST(Columns, AreThoseOfTheSchema) {
   const db::CaseInfo schema = db::test::plain_case();
   for (const auto& [column, value] : row.options) {
     const auto found = schema.options.find(column);
-    ASSERT_NE(found, schema.options.end()) << "a migration adds the column " << column;
+    ASSERT_NE(found, schema.options.end()) << "no column " << column;
     EXPECT_EQ(found->second, value) << column << ": the default of an older case";
   }
   EXPECT_EQ(row.options.size(), schema.options.size());

@@ -105,12 +105,12 @@ TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   for (const double ssi_s : {0.0, kInfinity}) {
     for (const std::int64_t robots : {16, 32}) {
       db::CellSummary cell;
-      cell.environment = "ware/house";
-      cell.robots = robots;
-      cell.ssi_s = ssi_s;
-      cell.reschedule = "none";
-      cell.order = "fifo";
-      cell.planner = "sipplab connectedness:3";
+      cell.parameters.environment = "ware/house";
+      cell.parameters.robots = robots;
+      cell.parameters.options["ssi_s"] = ssi_s;
+      cell.parameters.options["reschedule"] = "none";
+      cell.parameters.options["initial_order"] = "fifo";
+      cell.parameters.planner = "sipplab connectedness:3";
       cell.success_rate = 0.5;
       cell.median_planning_time_s = 0.01;
       run.cells.push_back(cell);
@@ -121,7 +121,7 @@ TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-sipplab-connectedness-3");
   EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3");
   run.cells.push_back(run.cells.front());
-  run.cells.back().environment = "ware=house";
+  run.cells.back().parameters.environment = "ware=house";
   EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3-2");
   ASSERT_EQ(charts[0].chart.lines.size(), 4U);
   EXPECT_EQ(charts[0].chart.lines[2].label, "ssi inf");
@@ -183,35 +183,30 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
             std::string::npos);
 }
 
+db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
+  db::CellSummary cell;
+  cell.parameters.environment = environment;
+  cell.parameters.robots = robots;
+  cell.parameters.options["ssi_s"] = 5.0;
+  cell.parameters.options["reschedule"] = "none";
+  cell.parameters.options["initial_order"] = "fifo";
+  cell.parameters.planner = "sipplab";
+  cell.median_planning_time_s = median_s;
+  return cell;
+}
+
 TEST(RuntimeChart, draws_as_many_lines_as_there_are_colours) {
   db::RunReport run;
   for (int ssi_s = 0; ssi_s < 9; ++ssi_s) {
-    db::CellSummary cell;
-    cell.environment = "empty";
-    cell.robots = 8;
-    cell.ssi_s = ssi_s;
-    cell.median_planning_time_s = 0.01;
-    run.cells.push_back(cell);
+    run.cells.push_back(timed_cell("empty", 8, 0.01));
+    run.cells.back().parameters.options["ssi_s"] = 1.0 * ssi_s;
   }
   const Chart chart = runtime_chart({run}, {});
   EXPECT_EQ(chart.lines.size(), kMostChartLines);
   EXPECT_NE(chart.title.find("first 7 of 9"), std::string::npos) << chart.title;
 
-  run.cells.back().environment = "warehouse";
+  run.cells.back().parameters.environment = "warehouse";
   EXPECT_EQ(runtime_chart({run}, {}).lines[0].label, "ssi 0") << "what tells apart those that are drawn";
-}
-
-db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
-  db::CellSummary cell;
-  cell.environment = environment;
-  cell.robots = robots;
-  cell.ssi_s = 5;
-  cell.reschedule = "none";
-  cell.order = "fifo";
-  cell.planner = "sipplab";
-  cell.connectedness = 2;
-  cell.median_planning_time_s = median_s;
-  return cell;
 }
 
 TEST(RuntimeChart, names_lines_by_what_tells_them_apart) {
@@ -222,7 +217,7 @@ TEST(RuntimeChart, names_lines_by_what_tells_them_apart) {
   db::RunReport theirs;
   theirs.run.uuid = "22222222-rest";
   theirs.cells = {timed_cell("empty", 16, 0.5), timed_cell("empty", 16, 0.7)};
-  theirs.cells[0].planner = theirs.cells[1].planner = "cmd:other";
+  theirs.cells[0].parameters.planner = theirs.cells[1].parameters.planner = "cmd:other";
 
   db::CaseFilter empty_maps;
   empty_maps.environment = "empty";

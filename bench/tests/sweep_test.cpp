@@ -210,13 +210,6 @@ TEST(CaseOutcome, MeansOfPlansAreOverSolvedInstancesAlone) {
   EXPECT_EQ(outcome.limited(), 1);
 }
 
-TEST(NaturalOrder, NumbersInNamesCountAsNumbers) {
-  std::vector<std::string> names = {"10.xml", "2.xml", "a10b2", "a2b10", "1.xml", "a10b1", "a"};
-  std::sort(names.begin(), names.end(), natural_less);
-  EXPECT_EQ(names, (std::vector<std::string>{"1.xml", "2.xml", "10.xml", "a", "a2b10", "a10b1", "a10b2"}));
-  EXPECT_FALSE(natural_less("7.xml", "7.xml"));
-}
-
 TEST(Filter, IsThatOfGoogleBenchmark) {
   const std::vector<std::string> names = {"plan/empty/agents:8", "plan/warehouse/agents:16"};
   EXPECT_EQ(filter_matches("", names).value(), (std::vector<bool>{true, true}));

@@ -67,23 +67,17 @@ Result<Done> Connection::execute(const std::string& sql, std::string_view doing)
 }
 
 Result<std::int64_t> Connection::query_int(const std::string& sql, std::string_view doing) {
-  auto statement = Statement::prepare(*this, sql, doing);
-  if (!statement) return Unexpected{statement.error()};
-  const auto row = statement->step();
-  if (!row) return Unexpected{row.error()};
-  if (!row.value())
-    return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
-  return statement->integer(0);
+  auto statement = SIPPLAB_TRY(Statement::prepare(*this, sql, doing));
+  const auto row = SIPPLAB_TRY(statement.step());
+  if (!row) return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
+  return statement.integer(0);
 }
 
 Result<std::string> Connection::query_text(const std::string& sql, std::string_view doing) {
-  auto statement = Statement::prepare(*this, sql, doing);
-  if (!statement) return Unexpected{statement.error()};
-  const auto row = statement->step();
-  if (!row) return Unexpected{row.error()};
-  if (!row.value())
-    return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
-  return statement->text(0);
+  auto statement = SIPPLAB_TRY(Statement::prepare(*this, sql, doing));
+  const auto row = SIPPLAB_TRY(statement.step());
+  if (!row) return Unexpected{Error{ErrorKind::kNotFound, name() + ": no row while " + std::string{doing}}};
+  return statement.text(0);
 }
 
 std::int64_t Connection::last_insert_rowid() const { return sqlite3_last_insert_rowid(handle_->db); }

@@ -16,13 +16,13 @@ struct sqlite3;
 namespace sipplab::db::sqlite {
 
 /// Wall-clock time for which a lock is awaited. Writers hold it for milliseconds
-/// (one case), so a minute means that somebody forgot a transaction.
+/// (one case), so a minute means that a program forgot to end a transaction.
 inline constexpr std::chrono::seconds kBusyTimeout{60};
 
 enum class OpenMode {
   kReadWrite,  ///< the file is made if it is missing
   kReadOnly,
-  kImmutable,  ///< read-only media: no locks, no files beside the database
+  kImmutable,  ///< read-only media: no locks, no files next to the database
 };
 
 /// The open file and what an error message needs to know of it. Its address stays

@@ -52,7 +52,7 @@ int wait_for_lock(void* handle, int attempts);
 bool is_busy(int code);
 
 /// Calls `attempt` (which returns an SQLite code) until it is not busy or until
-/// kBusyTimeout has passed. SQLite does not ask the busy handler where waiting could
+/// kBusyTimeout has passed. SQLite does not ask the busy handler if waiting could
 /// be a deadlock: when several processes change a fresh file to WAL, each from a read
 /// lock; nor when they race for the first use of the log (SQLITE_PROTOCOL).
 template <class Attempt>

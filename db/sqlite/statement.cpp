@@ -44,9 +44,8 @@ Result<bool> Statement::step() {
 
 Result<Done> Statement::run() {
   for (;;) {
-    const auto row = step();
-    if (!row) return Unexpected{row.error()};
-    if (!row.value()) break;
+    const auto row = SIPPLAB_TRY(step());
+    if (!row) break;
   }
   reset();
   return Done{};

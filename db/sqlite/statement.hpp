@@ -28,6 +28,14 @@ class Statement {
   /// `doing` completes "while ..." in the messages of this statement. The
   /// connection must outlive it.
   static Result<Statement> prepare(Connection& connection, std::string_view sql, std::string_view doing);
+  /// With the values bound to its parameters.
+  template <class... Values>
+  static Result<Statement> prepare(Connection& connection, std::string_view sql, std::string_view doing,
+                                   const Values&... values) {
+    Statement statement = SIPPLAB_TRY(prepare(connection, sql, doing));
+    statement.bind(values...);
+    return statement;
+  }
 
   /// Binds the values to parameters ?1, ?2, ... in turn. Text is copied.
   template <class... Values>
@@ -48,9 +56,8 @@ class Statement {
   template <class Each>
   Result<Done> for_each(Each each) {
     for (;;) {
-      const auto row = step();
-      if (!row) return Unexpected{row.error()};
-      if (!row.value()) return Done{};
+      const auto row = SIPPLAB_TRY(step());
+      if (!row) return Done{};
       each();
     }
   }
@@ -58,8 +65,7 @@ class Statement {
   template <class Read>
   auto collect(Read read) -> Result<std::vector<decltype(read(*this))>> {
     std::vector<decltype(read(*this))> rows;
-    if (const auto done = for_each([&] { rows.push_back(read(*this)); }); !done)
-      return Unexpected{done.error()};
+    SIPPLAB_TRY(for_each([&] { rows.push_back(read(*this)); }));
     return rows;
   }
   /// Runs to the end and resets, so that the statement can be bound again.
@@ -107,5 +113,12 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, GiveBack> statement_;
   std::string doing_;
 };
+
+/// Runs a statement that returns no rows.
+template <class... Values>
+Result<Done> run(Connection& connection, std::string_view sql, std::string_view doing,
+                 const Values&... values) {
+  return SIPPLAB_TRY(Statement::prepare(connection, sql, doing, values...)).run();
+}
 
 }  // namespace sipplab::db::sqlite

@@ -6,9 +6,7 @@
 namespace sipplab::db::sqlite {
 
 Result<Transaction> Transaction::begin(Connection& connection) {
-  if (auto done = connection.execute("BEGIN IMMEDIATE", "beginning to write"); !done) {
-    return Unexpected{done.error()};
-  }
+  SIPPLAB_TRY(connection.execute("BEGIN IMMEDIATE", "beginning to write"));
   return Transaction{connection};
 }
 
@@ -19,7 +17,7 @@ Transaction::~Transaction() {
 }
 
 Result<Done> Transaction::commit() {
-  if (auto done = connection_->execute("COMMIT", "committing"); !done) return Unexpected{done.error()};
+  SIPPLAB_TRY(connection_->execute("COMMIT", "committing"));
   connection_ = nullptr;
   return Done{};
 }

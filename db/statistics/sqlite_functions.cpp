@@ -23,7 +23,7 @@ namespace {
 /// Three is the most that any of the functions takes.
 using Arguments = std::array<double, 3>;
 
-/// An outcome, or why there is none; a NULL where both are missing.
+/// An outcome, or why there is none; NULL if both are missing.
 struct Outcome {
   std::optional<double> value;
   const char* error = nullptr;

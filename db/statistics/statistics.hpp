@@ -1,5 +1,5 @@
 // Statistics of benchmark results: plain functions, no SQL. All tests are two-sided
-// and, where the sizes allow it, exact.
+// and, if the sizes allow it, exact.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +58,7 @@ struct TimedResult {
   double limit_s = 0;
 };
 
-/// Mean time where an unsolved result counts as twice its limit. None for no results.
+/// Mean time, an unsolved result counting as twice its limit (PAR-2). None for no results.
 std::optional<double> par2(const std::vector<TimedResult>& results);
 
 }  // namespace sipplab::db::statistics

@@ -223,7 +223,7 @@ TEST(Identity, processes_and_uuids) {
   restarted.back() = restarted.back() == '1' ? '2' : '1';
   EXPECT_FALSE(is_alive(restarted)) << "the same number at another time is another process";
 
-  // One that has ended and that nobody has asked how: as where the first process collects none.
+  // One that has ended and was not waited for, as in a container whose first process collects none.
   std::array<int, 2> channel{};
   ASSERT_EQ(pipe(channel.data()), 0);
   const pid_t child = start([&channel] {

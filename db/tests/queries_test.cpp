@@ -15,7 +15,7 @@ using test::sample_instance;
 
 class Queries : public test::DatabaseTest {
  protected:
-  /// One case; instance i has makespan `makespans[i]`, or failed where it is 0.
+  /// One case; instance i has makespan `makespans[i]`, or failed if it is 0.
   std::string record(const std::vector<double>& makespans, const std::string& suite = "smoke") {
     auto recorder = must(RunRecorder::begin(must(Database::open(file)), test::sample_run(suite)));
     for (std::size_t i = 0; i < makespans.size(); ++i) {

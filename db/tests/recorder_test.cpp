@@ -301,7 +301,7 @@ TEST_F(Recording, a_run_has_one_writer) {
   auto recorder = begin();
   {
     auto connection = must(sqlite::Connection::open(file, sqlite::OpenMode::kReadWrite));
-    must(connection.execute("UPDATE run SET writer = 'somebody else'", "taking over"));
+    must(connection.execute("UPDATE run SET writer = 'another process'", "taking over"));
   }
   recorder.add(sample_case(64), sample_instance(0), sample_result(0));
   const auto result = recorder.commit_case(sample_case(64));

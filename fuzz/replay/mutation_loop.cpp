@@ -10,7 +10,7 @@
 #include "fuzz/support/target.hpp"
 #include "planner/core/random.hpp"
 
-/// Of the sanitizers, where they are there: called before they end the process.
+/// Of the sanitizers, if they are linked: called before they end the process.
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 namespace sipplab::fuzz {
@@ -19,7 +19,7 @@ namespace {
 /// Inputs that are mutated further; beyond that, one of them makes room.
 constexpr std::size_t kPool = 256;
 
-/// The input on trial, for whoever has to say what broke.
+/// The input on trial, for the report of what broke.
 std::string on_trial;
 std::string kept_in;
 Random mutations(0);

@@ -14,7 +14,7 @@ inline constexpr std::size_t kMaxInputBytes = 4096;
 
 /// Runs the target on `count` mutations of the seeds and of inputs made from them. The same
 /// arguments give the same inputs. A broken claim ends the process; the input that did it
-/// is printed to stderr and, where `keep_in` is not empty, written to that file.
+/// is printed to stderr and, if `keep_in` is not empty, written to that file.
 void run_mutations(const std::vector<std::string>& seeds, std::size_t count, std::uint64_t seed,
                    const std::string& keep_in);
 

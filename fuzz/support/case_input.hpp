@@ -10,7 +10,7 @@
 
 namespace sipplab::fuzz {
 
-/// The case, where the text is one, keeps the rules of instances and is small enough to be
+/// The case, if the text is one, keeps the rules of instances and is small enough to be
 /// planned a thousand times a second. Its limits are cut to what a mutated case may cost.
 /// Counts what the input was, and checks that its text is read back.
 std::optional<PlanCase> read_case(const std::uint8_t* data, std::size_t size);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace sipplab;
 
-/// One mutation in so many changes bytes: the reader of cases is on trial as well.
+/// One mutation in this many changes bytes: the reader of cases is on trial too.
 constexpr std::uint64_t kBytesOneIn = 64;
 
 std::size_t put(const std::string& text, std::uint8_t* out, std::size_t max_size) {

@@ -38,7 +38,7 @@ constexpr std::size_t kCounts = kClaims + kEvents;
 // The compilers' own functions: libc++ before version 19 has no std::atomic_ref.
 static_assert(__atomic_always_lock_free(sizeof(std::uint64_t), nullptr));
 
-/// Rows of the file of the environment variable, or in memory that nobody reads.
+/// Rows of the file that the environment variable names, else in memory of this process alone.
 CountRow* map_rows() {
   static std::array<CountRow, kCounts> own{};
   const char* path = std::getenv(kCountsVariable);

@@ -64,7 +64,7 @@ std::string_view name(Event event);
 
 void count(Event event);
 
-/// Counts the check; where the condition is false, prints "broken claim: NAME: detail" and
+/// Counts the check; if the condition is false, prints "broken claim: NAME: detail" and
 /// aborts.
 void require(Claim claim, bool condition, const char* detail);
 void require(Claim claim, bool condition, const std::string& detail);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-/// Of the sanitizers, where they are there.
+/// Of the sanitizers, if they are linked.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*))
     __attribute__((weak));

@@ -14,13 +14,13 @@ namespace sipplab::fuzz {
 /// after the last, for what is missing at the end), or no line: 0.
 void check_refusal(const InputError& error, std::string_view text);
 
-/// The same where there is a text: a line of it is named.
+/// The same if there is a text: the error names a line of it.
 void check_refusal_of_text(const InputError& error, std::string_view text);
 
 /// The same for a warning: one printable line.
 void check_warning(const std::string& warning);
 
-/// Measures what is allocated while it lives, where a sanitizer can tell; at its end that
+/// Measures what is allocated while it lives, if a sanitizer can tell; at its end that
 /// has to be in proportion to the text.
 class MemoryCheck {
  public:

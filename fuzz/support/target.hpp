@@ -1,4 +1,4 @@
-// What a target offers to whoever runs it: libFuzzer, AFL++, or the replay program. The
+// What a target offers to the program that runs it: libFuzzer, AFL++, or the replay program. The
 // names and signatures are libFuzzer's.
 #pragma once
 
@@ -17,7 +17,7 @@ std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* one, std::size_t one_s
                                       const std::uint8_t* other, std::size_t other_size, std::uint8_t* out,
                                       std::size_t max_size, unsigned seed) __attribute__((weak));
 
-/// Changes bytes without knowing what they mean; comes with whoever runs the target.
+/// Changes bytes without knowing what they mean; part of the program that runs the target.
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 }
 

@@ -23,7 +23,7 @@ struct CompleteResult {
 };
 
 /// What lies beyond the model of plan_complete: a robot with a radius over 0.5, robots of
-/// different speeds, a dynamic obstacle. One line; none where it can be planned.
+/// different speeds, a dynamic obstacle. One line; none if it can be planned.
 /// REQUIRES: !find_error(instance).
 std::optional<InstanceError> find_beyond_complete(const Instance& instance, const MotionRules& rules = {});
 

@@ -1,5 +1,5 @@
 // How far free cells are from each robot's goal, in moves between four neighbours: a
-// breadth-first search from each goal that goes as far as somebody asks, no farther.
+// breadth-first search from each goal that goes only as far as it is asked.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,14 @@ class GoalDistances {
 
   CellId goal(RobotId robot) const { return goals_[robot]; }
 
-  /// Moves from `cell` to the robot's goal; none where there is no way. Searches on until it
+  /// Moves from `cell` to the robot's goal; none if there is no path. Searches on until it
   /// is known, so that only the first call for a cell far away is slow: O(cells) over all
   /// calls for a robot. REQUIRES: first call for this robot, or a cell farther away than
   /// all that were asked for before.
   std::optional<std::uint32_t> first_distance(RobotId robot, CellId cell);
 
   /// Whether `to` is one move nearer to the robot's goal than `from`; otherwise it is one
-  /// move farther. REQUIRES: the two are neighbours, and there is a way to the goal.
+  /// move farther. REQUIRES: the two are neighbours, and there is a path to the goal.
   bool is_nearer(RobotId robot, CellId from, CellId to) {
     Search& search = searches_[robot];
     unsigned here = search.code(from);
@@ -58,7 +58,7 @@ class GoalDistances {
     }
   };
 
-  /// Sees the next layer. False where there is none.
+  /// Sees the next layer. False if there is none.
   bool grow(Search& search);
 
   const FreeGrid& grid_;

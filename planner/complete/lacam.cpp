@@ -13,14 +13,14 @@ namespace {
 using NodeId = std::uint32_t;
 constexpr NodeId kNoNode = UINT32_MAX;
 
-/// Steps, as multiples of the longest way: how long a first search may take before another
+/// Steps, as multiples of the longest path: how long a first search may take before another
 /// one with other ties begins, which then has twice as long. Times of search have a long tail:
 /// on the empty map of 32 x 32 cells with 950 robots half of the searches take four times the
-/// longest way, some a hundred times. Doubling keeps the search complete.
+/// longest path, some a hundred times. Doubling keeps the search complete.
 constexpr std::uint64_t kPatience = 8;
 constexpr std::uint64_t kLeastPatienceSteps = 256;
 
-/// Robots on so many of the free cells, or more, do not look for free cells first. With fewer
+/// Robots on this share of the free cells, or more, do not look for free cells first. With fewer
 /// that saves a tenth to a fifth of the flowtime (empty map of 32 x 32 cells, 320 to 880 robots);
 /// with 950 robots it costs twice the time of search. They keep places at the rim, too.
 constexpr double kCrowdedShare = 0.9;
@@ -40,7 +40,7 @@ struct ConstraintNode {
 /// A configuration, and which of its steps were tried.
 struct Node {
   Configuration cells;
-  /// Steps since each robot was last at its goal: who is late goes first. [PIBT].
+  /// Steps since each robot was last at its goal: the latest goes first. [PIBT].
   std::vector<std::uint32_t> late_steps;
   NodeId parent = kNoNode;
   std::vector<ConstraintNode> constraints;  ///< breadth first
@@ -62,7 +62,7 @@ bool is_late(const LacamLimits& limits) {
   return limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline;
 }
 
-/// Unit moves from each start to its goal; none where some goal cannot be reached.
+/// Unit moves from each start to its goal; none if some goal cannot be reached.
 std::optional<std::vector<std::uint32_t>> way_lengths(GoalDistances& distances, const Configuration& starts) {
   std::vector<std::uint32_t> lengths;
   for (RobotId robot = 0; robot < starts.size(); ++robot) {
@@ -73,7 +73,7 @@ std::optional<std::vector<std::uint32_t>> way_lengths(GoalDistances& distances, 
   return lengths;
 }
 
-/// Who chooses first: who is late, by whole multiples of so many steps, then in this order.
+/// Which robot chooses first: the latest, by whole multiples of this many steps, then in this order.
 struct Order {
   std::vector<RobotId> robots;
   std::uint32_t late_after_steps = 1;
@@ -105,7 +105,7 @@ std::vector<std::uint32_t> depths_from_rim(const FreeGrid& grid) {
   return depths;
 }
 
-/// Long ways first; in a crowd goals at the rim first: a crowd is put in order from outside to
+/// Long paths first; in a crowd goals at the rim first: a crowd is put in order from outside to
 /// inside, as a sliding puzzle is.
 Order order_of(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
                const std::vector<std::uint32_t>& lengths) {

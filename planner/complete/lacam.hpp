@@ -31,14 +31,14 @@ struct LacamResult {
   std::uint64_t configurations = 0;  ///< different ones seen
 };
 
-/// A way of all robots from starts to goals such that each step keeps (1) and (2) of
+/// Paths of all robots from starts to goals such that each step keeps (1) and (2) of
 /// Pibt::make_step. Without limits:
-///  (1) solved exactly when there is such a way;
+///  (1) solved exactly when there are such paths;
 ///  (2) the same input and seed give the same result.
 ///
 /// Depth first; each configuration lets robots move by PIBT, the first time freely, then with more and
 /// more of them constrained, until all of its steps were tried. In the worst case exponential in
-/// the number of robots, in practice a few steps more than the longest way.
+/// the number of robots, in practice a few steps more than the longest path.
 /// REQUIRES: starts differ, goals differ, as many as each other.
 LacamResult search_lacam(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
                          std::uint64_t seed, const LacamLimits& limits);

@@ -48,7 +48,7 @@ bool Pibt::move(RobotId root) {
   while (!choices_.empty()) {
     Choice& choice = choices_.back();
     if (!reserve_candidate(choice)) {
-      assign(choice.robot, (*now_)[choice.robot]);  // in vain: whoever pushed it tries another cell
+      assign(choice.robot, (*now_)[choice.robot]);  // in vain: the robot that pushed it tries another cell
       choices_.pop_back();
       continue;
     }
@@ -147,7 +147,7 @@ RobotId Pibt::swap_partner(RobotId robot, CellId wanted) const {
       is_swap_possible(here, wanted)) {
     return opposite;
   }
-  // The robot may have to clear the way for one beside it.
+  // The robot may have to clear the way for one next to it.
   for (const CellId cell : grid_.neighbours(here)) {
     const RobotId beside = robot_at_[cell];
     if (beside == kNoRobot || cell == wanted) continue;

@@ -36,7 +36,7 @@ enum class StepOutcome {
 class Pibt {
  public:
   /// Both must outlive this. `prefer_free_cells`: of cells that are equally near, robots try
-  /// those first that nobody is on. O(cells).
+  /// free ones first. O(cells).
   Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed);
 
   /// Moves each robot to a neighbour of its cell or leaves it where it is, so that
@@ -44,7 +44,7 @@ class Pibt {
   ///  (2) no robots move in a closed ring, so that no two change places either (following a
   ///      robot into the cell that it leaves is fine);
   ///  (3) each constraint is met;
-  ///  (4) where all robots are constrained and (1) and (2) allow it, a step is found.
+  ///  (4) if all robots are constrained and (1) and (2) allow it, a step is found.
   /// Robots choose in the given order, nearer cells first. `next` is worthless unless
   /// a step was found.
   ///
@@ -68,7 +68,7 @@ class Pibt {
   bool assign_all(std::span<const StepConstraint> constraints);
   bool move(RobotId root);
   Choice begin_choice(RobotId robot);
-  /// Reserves the next candidate that is free to take. False where none is left.
+  /// Reserves the next candidate that is free to take. False if none is left.
   bool reserve_candidate(Choice& choice);
   /// The robot that has to give way to the candidate reserved last; kNoRobot for none.
   RobotId robot_in_the_way(const Choice& choice) const;

@@ -27,7 +27,7 @@ class LongestPaths {
 
  private:
   /// The visit that must have begun, a lag after which this one can: that of the robot that
-  /// was here before, at the cell where it went next. kNoVisit where nobody was.
+  /// was here before, at the cell where it went next. kNoVisit if no robot was.
   VisitId leader(const Visit& visit) const {
     if (visit.before_here == kNoVisit) return kNoVisit;
     return visits_[visit.before_here].after;

@@ -47,7 +47,7 @@ std::vector<Crossing> crossings(const Instance& instance, const Visits& visits,
 }
 
 /// The first order, in the order of input, that keeps these apart; shorter than the number of
-/// robots where there is none (Kahn 1962).
+/// robots if there is none (Kahn 1962).
 std::vector<AgentIndex> sorted_order(std::size_t robots, std::span<const Crossing> kept) {
   std::vector<std::uint32_t> waits_for(robots, 0);
   std::vector<std::vector<RobotId>> released_by(robots);

@@ -15,14 +15,14 @@ struct StartOrder {
   double kept_s = 0;
 };
 
-/// Who crosses the start of another robot needs the lower priority of the two. The order that
+/// A robot that crosses the start of another one needs the lower priority of the two. The order that
 /// keeps the promise the longest: in [0, kept_s], kept_s <= wanted_s, no robot comes too near
-/// the start of one of lower priority; kept_s < wanted_s only where no order keeps it any
+/// the start of one of lower priority; kept_s < wanted_s only if no order keeps it any
 /// longer. Of such orders the one that comes first in the order of input.
 /// O((robots + crossings) log(crossings)).
 ///
 /// REQUIRES: wanted_s >= 0, infinity included: then goals on starts are pardoned as
-/// PlannerOptions says, where that keeps the promise for ever. Robots are equally fast.
+/// PlannerOptions says, if that keeps the promise for ever. Robots are equally fast.
 StartOrder longest_kept_order(const Instance& instance, const Visits& visits,
                               const std::vector<ExactTime>& arrivals, double wanted_s);
 

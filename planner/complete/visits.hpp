@@ -1,4 +1,4 @@
-// Who visits which cell, and in which order: what is left of a plan in discrete time when
+// Which robot visits which cell, and in which order: what is left of a plan in discrete time when
 // its clock is taken away.
 #pragma once
 
@@ -35,7 +35,7 @@ class Visits {
   /// At the robot's start.
   VisitId first_of(RobotId robot) const { return first_[robot]; }
 
-  /// Takes out every round trip of a robot, back to a cell that nobody else visits in the
+  /// Takes out every round trip of a robot, back to a cell that no other robot visits in the
   /// meantime: it may as well wait there. Afterwards
   ///  (1) each robot goes from its start to its goal by moves that it made before;
   ///  (2) the visits that are left to a cell have the order that they had;

@@ -5,9 +5,9 @@
 #include "planner/solve/solve.hpp"
 
 int main() {
-  sipplab::GeneratorOptions who;
-  who.agents = 4;
-  const auto instance = sipplab::generate_instance(sipplab::warehouse_map(), who);
+  sipplab::GeneratorOptions wanted;
+  wanted.agents = 4;
+  const auto instance = sipplab::generate_instance(sipplab::warehouse_map(), wanted);
   if (!instance) return 1;
   sipplab::PlannerOptions options;
   options.improve = sipplab::parse_improve_budget("20i");

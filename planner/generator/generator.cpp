@@ -136,7 +136,7 @@ class Placement {
   const GridMap& map_;
   std::vector<SizeClass> classes_;
   std::vector<std::vector<Cell>> overlapping_;    ///< by size placed, then the other size
-  std::vector<std::vector<std::uint8_t>> taken_;  ///< by size: 1 where no such body can be
+  std::vector<std::vector<std::uint8_t>> taken_;  ///< by size: 1 if no such body can be
 };
 
 /// Lets no goal be its robot's own start. Starts are distinct and goals are, so
@@ -193,7 +193,7 @@ std::vector<Agent> draw_bodies(const GeneratorOptions& options) {
   return agents;
 }
 
-/// A cell so far beyond one of the four borders that nobody on the map is touched there.
+/// A cell so far beyond one of the four borders that a body there touches none on the map.
 Cell draw_cell_outside(const GridMap& map, std::int32_t far, Random& random) {
   const auto draw_below = [&random](std::int32_t bound) {
     return static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(bound)));

@@ -14,7 +14,7 @@
 
 namespace sipplab {
 
-/// What a map is to be: "empty:32x32", "random:32x32:0.2" (exactly that share of
+/// What map to make: "empty:32x32", "random:32x32:0.2" (exactly that share of
 /// the cells blocked, rounded), "warehouse", or a path to a map file.
 struct MapSpec {
   enum class Kind { kEmpty, kRandom, kWarehouse, kFile };
@@ -38,7 +38,7 @@ struct GeneratorOptions {
   std::size_t agents = 0;
   std::uint64_t seed = 1;
   std::uint64_t index = 0;  ///< which instance of this seed
-  // Each robot's is drawn from these, all equally likely; where there is but one value,
+  // Each robot's is drawn from these, all equally likely; if there is but one value,
   // nothing is drawn.
   std::vector<double> radii_cells = {kDefaultRadiusCells};
   std::vector<double> speeds_cells_per_s = {kDefaultSpeedCellsPerS};
@@ -52,10 +52,10 @@ struct GeneratorOptions {
 
 /// Robots with distinct starts and distinct goals, bodies not overlapping, each on the
 /// map's largest 4-connected component for its radius, so that every goal can be
-/// reached. A robot's goal differs from its start where it can exchange goals with another
+/// reached. A robot's goal differs from its start if it can exchange goals with another
 /// robot of its size, or is alone on the map. Speeds, headings and obstacles do not change
 /// where robots are.
-/// Errors: one line when so many robots do not fit.
+/// Errors: one line if that many robots do not fit.
 Expected<Instance, std::string> generate_instance(const GridMap& map, const GeneratorOptions& options);
 
 /// make_map and generate_instance in one.

@@ -23,7 +23,7 @@ inline constexpr double kMinRotationSpeed = 1e-3;
 inline constexpr double kMaxRotationSpeed = 1e3;
 
 struct Agent {
-  std::string id;  ///< as in the input; the input position where the input has none
+  std::string id;  ///< as in the input; the input position if the input has none
   Cell start;
   Cell goal;
   double radius_cells = kDefaultRadiusCells;
@@ -34,7 +34,7 @@ struct Agent {
   double start_heading_deg = 0;
   /// None: any heading will do ("whatever").
   std::optional<double> goal_heading_deg;
-  /// Turns of 180 degrees per second. Counts, as the headings do, where MotionRules say so.
+  /// Turns of 180 degrees per second. Counts, as the headings do, if MotionRules say so.
   double rotation_speed = kDefaultRotationSpeed;
 
   friend bool operator==(const Agent&, const Agent&) = default;

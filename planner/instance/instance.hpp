@@ -17,7 +17,7 @@ namespace sipplab {
 /// Position of an agent in Instance::agents.
 using AgentIndex = std::size_t;
 
-/// A disk with a given trajectory that moves for nobody. After its last motion it
+/// A disk with a given trajectory that gives way to no robot. After its last motion it
 /// rests for ever. It may stand on blocked cells.
 struct DynamicObstacle {
   std::string id;
@@ -35,12 +35,12 @@ struct Instance {
   friend bool operator==(const Instance&, const Instance&) = default;
 };
 
-/// Of all agents; 0 where there are none.
+/// Of all agents; 0 if there are none.
 double largest_radius_cells(const Instance& instance);
 
 /// Why an instance is not a problem that can be posed.
 struct InstanceError {
-  std::optional<AgentIndex> agent;  ///< the later one where two are at odds
+  std::optional<AgentIndex> agent;  ///< the later one if two are at odds
   std::optional<std::size_t> obstacle;
   std::string what;      ///< "agent 3: start (4, 7) is blocked"
   std::string expected;  ///< "a free cell"

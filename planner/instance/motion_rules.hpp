@@ -12,12 +12,12 @@ struct MotionRules {
   /// Agent::rotation_speed, from Agent::start_heading_deg to Agent::goal_heading_deg.
   bool turns = false;
   /// Seconds, 0 to kMaxMotionMargin. A robot stands at least so long before each of its
-  /// straight motions, besides the time that it turns ("waitbeforemove").
+  /// straight motions, in addition to the time that it turns ("waitbeforemove").
   double wait_before_move_s = 0;
   /// Cells, 0 to kMaxMotionMargin. While a robot moves, it stays so much farther than the
   /// radii ask for from robots of higher priority and from dynamic obstacles. A robot that
   /// stands does not count: else robots whose starts or goals touch could never be planned.
-  /// What the published planner does where it is told "inflatecollisionintervals".
+  /// What the published planner does if it is told "inflatecollisionintervals".
   double inflate_distance_cells = 0;
   /// Seconds, 0 to kMaxMotionMargin. Where a body is, no other one is within this time
   /// before or after, moving or not: what the published format says of
@@ -25,7 +25,7 @@ struct MotionRules {
   double inflate_time_s = 0;
 
   /// Whether robots keep away farther, or for longer, than their bodies need. How far depends on
-  /// who is of higher priority, so what leaves that open until the end knows nothing of it:
+  /// which robot has the higher priority, so methods that leave the order open refuse it:
   /// ejection and improvement.
   bool inflates() const { return inflate_distance_cells > 0 || inflate_time_s > 0; }
   /// Whether planning for bodies alone will do.

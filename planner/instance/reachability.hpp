@@ -11,7 +11,7 @@
 namespace sipplab {
 
 /// Components of the cells where a disk of this radius may stand, joined by moves
-/// between 4-neighbours; by GridMap::index. 0 where it may not stand, else 1, 2, ...
+/// between 4-neighbours; by GridMap::index. 0 if it may not stand, else 1, 2, ...
 /// in row-major order of each component's first cell. A move between two such
 /// neighbours is always free: it sweeps no unit square that the disk does not
 /// already reach from one of its ends.

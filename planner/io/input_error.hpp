@@ -9,7 +9,7 @@ namespace sipplab {
 
 struct InputError {
   std::string file;
-  int line = 0;  ///< counted from 1; 0 where no line can be named
+  int line = 0;  ///< counted from 1; 0 if no line can be named
   std::string what;
   std::string expected;
 

@@ -6,7 +6,7 @@
 namespace sipplab {
 
 /// The line, counted from 1, on which the value at `path` begins ("trajectories[3].motions[0].t1");
-/// where there is none, the innermost list or object on the way to it. Where a key repeats, the last
+/// if there is none, the innermost list or object on the way to it. If a key repeats, the last
 /// one counts, as in the parsed document.
 ///
 /// REQUIRES: well-formed JSON. O(length of the text).

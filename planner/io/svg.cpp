@@ -24,7 +24,7 @@ constexpr double kHeaderHeight = 96;
 constexpr double kMinPageWidth = 560;
 constexpr double kGridLinesFromCellSide = 9;
 constexpr double kIdsFromCellSide = 11;
-/// Smaller letters inside of a disk are not read: the id moves beside it.
+/// Smaller letters inside a disk cannot be read: the id moves next to it.
 constexpr double kSmallestIdInside = 8;
 constexpr double kIdBeside = 12;
 
@@ -280,7 +280,7 @@ class Painter {
     }
   }
 
-  /// Rings at the starts, in true size; smaller where a goal would be hidden.
+  /// Rings at the starts, in true size; smaller if a goal would be hidden.
   void starts() {
     std::set<Cell> goal_cells;
     for (const Agent& agent : instance_.agents) goal_cells.insert(agent.goal);
@@ -325,7 +325,7 @@ class Painter {
     }
   }
 
-  /// The robot's id within a disk of this radius, or beside it where it is too small.
+  /// The robot's id within a disk of this radius, or next to it if the disk is too small.
   void id(const Agent& agent, Cell cell, double radius, const std::string& in_colour,
           const std::string& in_disk) {
     if (!with_ids_) return;

@@ -27,7 +27,7 @@ class SvgClock {
   std::string attributes_;
 };
 
-/// An element that moves its parent along the trajectory; where the clock does not play, the
+/// An element that moves its parent along the trajectory; if the clock does not play, the
 /// parent is moved by nothing. REQUIRES: times that are finite and do not run backwards.
 void draw_movement(SvgCanvas& canvas, const Trajectory& trajectory, const SvgClock& clock);
 

@@ -12,7 +12,7 @@ namespace sipplab {
 /// `style` holds further attributes, written as they are; words are escaped.
 class SvgCanvas {
  public:
-  /// A unit is drawn this many pixels wide. Numbers have at most so many decimals.
+  /// A unit is drawn this many pixels wide. Numbers have at most `decimals` decimals.
   explicit SvgCanvas(double unit_px = 1, int decimals = 1);
 
   double unit_px() const { return unit_px_; }
@@ -30,7 +30,7 @@ class SvgCanvas {
   void open_page(double width, double height, const std::string& style);
   /// A hover text for the element that was opened last.
   void tooltip(std::string_view words);
-  /// Elements with a hover text, where there is one.
+  /// Elements with a hover text, if there is one.
   void circle(Vec2 at, double radius, const std::string& style, std::string_view hover = {});
   void line(Vec2 from, Vec2 to, const std::string& style, std::string_view hover = {});
   void text(Vec2 at, const std::string& style, std::string_view words);
@@ -44,7 +44,7 @@ class SvgCanvas {
   std::string out_;
 };
 
-/// At most so many decimals, as short as possible; "0" for what is not finite.
+/// At most this many decimals, as short as possible; "0" for what is not finite.
 std::string short_decimal(double value, int decimals = 3);
 
 }  // namespace sipplab

@@ -20,7 +20,7 @@ void append_hex_byte(std::string& out, double share) {
 std::string robot_colour(std::size_t position) {
   constexpr double kGoldenAngleDeg = 137.50776405003785;
   constexpr std::array<double, 3> kLightness = {0.42, 0.32, 0.52};
-  // The palette repeats after some thousand robots, where nobody tells colours apart.
+  // The palette repeats after some thousand robots; so many colours cannot be told apart anyway.
   const double hue = std::fmod(205 + kGoldenAngleDeg * static_cast<double>(position % 3600), 360.0) / 60;
   // From yellow to cyan the eye sees more light: darker there, to stand out from white.
   const double dimming = hue > 0.7 && hue < 3.3 ? 0.8 : 1;

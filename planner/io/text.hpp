@@ -33,7 +33,7 @@ std::string xml_escaped(std::string_view text);
 
 /// Some editors begin a text with it; readers pass over it.
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-/// What follows a byte order mark, where there is one.
+/// What follows a byte order mark, if there is one.
 std::string_view without_byte_order_mark(std::string_view text);
 
 bool is_valid_utf8(std::string_view text);

@@ -22,7 +22,7 @@ Input<std::string> read_file(const std::string& path);
 /// The same without the byte order mark that some editors put in front of UTF-8.
 Input<std::string> read_text(const std::string& path);
 
-/// Writes the whole text or nothing: into a temporary file beside `path` that then
+/// Writes the whole text or nothing: into a temporary file next to `path` that then
 /// takes its place. Devices and pipes are written directly. The error's `what` says
 /// why it failed ("no space left on device").
 std::optional<InputError> write_file(const std::string& path, std::string_view text);

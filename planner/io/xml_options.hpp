@@ -8,7 +8,7 @@
 
 namespace sipplab {
 
-/// What the two elements under <root> state; nothing where neither is there. Errors
+/// What the two elements under <root> state; nothing if neither is there. Errors
 /// go to the reader.
 std::optional<OptionsPart> read_options(XmlReader& reader, OptionRows rows = option_rows());
 

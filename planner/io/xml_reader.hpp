@@ -30,7 +30,7 @@ struct NumberRange {
 /// What every file of the format has around it.
 inline constexpr const char* kRootTag = "<root>";
 
-/// The functions that read a value return a harmless one where it is bad and keep
+/// The functions that read a value return a harmless one if it is bad and keep
 /// the complaint; the first complaint is the one that counts. So a reader can go
 /// straight on and look at error() from time to time.
 class XmlReader {
@@ -51,8 +51,8 @@ class XmlReader {
   /// All warnings so far; a last one says how many more there were.
   std::vector<std::string> take_warnings();
 
-  /// What becomes of tags, attributes and text that the reader does not know. Refused where they could change
-  /// the problem; reported by a warning where they cannot.
+  /// What becomes of tags, attributes and text that the reader does not know. Refused if they could change
+  /// the problem; reported by a warning if they cannot.
   enum class Others { kRefused, kIgnored };
   /// Looks for children, and text between children, that are not in the list.
   void expect_only_children(pugi::xml_node node, const std::vector<std::string_view>& names,
@@ -67,13 +67,13 @@ class XmlReader {
 
   std::int32_t required_integer(pugi::xml_node node, const char* attribute);
   double required_real(pugi::xml_node node, const char* attribute, const NumberRange& range);
-  /// Empty where there is no such attribute.
+  /// Empty if there is no such attribute.
   std::optional<double> optional_real(pugi::xml_node node, const char* attribute, const NumberRange& range);
 
   /// The element's own text as a number.
   std::int32_t integer_text(pugi::xml_node node);
   double real_text(pugi::xml_node node, const NumberRange& range);
-  /// An attribute that is words, kept as they are; empty where there is none. What is no UTF-8 is
+  /// An attribute that is words, kept as they are; empty if there is none. What is no UTF-8 is
   /// an error: JSON could not write it.
   std::string words(pugi::xml_node node, const char* attribute);
   /// "true", "1", "false" or "0".

@@ -6,12 +6,14 @@
 namespace sipplab {
 namespace {
 
-constexpr std::string_view kToldBeside[] = {"ssi", "order", "reschedule", "seed"};
+/// Columns of a case that distinguish cases in addition to the label.
+constexpr std::string_view kToldBeside[] = {
+    "ssi", "order", "reschedule", "seed", "max-expansions", "max-restarts", "time-limit"};
 
 bool is_in_label(const Option& option) {
   const bool beside =
       std::find(std::begin(kToldBeside), std::end(kToldBeside), option.name) != std::end(kToldBeside);
-  return !beside && option.group != OptionGroup::kLimits && *option.column != '\0';
+  return !beside && *option.json != '\0';
 }
 
 }  // namespace

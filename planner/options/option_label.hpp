@@ -7,8 +7,8 @@
 
 namespace sipplab {
 
-/// What differs from the defaults: "sipplab", "sipplab connectedness:3 weight:1.05". Limits, seeds and what
-/// tables tell beside it (start-safe interval, order, re-scheduling) are no part of it.
+/// What differs from the defaults: "sipplab", "sipplab connectedness:3 weight:1.05". Not part of it:
+/// time limit, limits on expansions and restarts, seed, start-safe interval, order and re-scheduling.
 std::string label_of(const PlannerOptions& options, OptionRows rows = option_rows());
 
 }  // namespace sipplab

@@ -15,7 +15,7 @@
 namespace sipplab {
 
 enum class OptionGroup { kPlanner, kMotion, kLimits, kImprovement };
-/// How an option is written where texts, numbers and truth values are told apart.
+/// How an option is written in a format that tells texts, numbers and truth values apart.
 enum class OptionKind { kYesNo, kNumber, kCount, kWord };
 
 struct Option {
@@ -25,7 +25,7 @@ struct Option {
   OptionGroup group = OptionGroup::kPlanner;
   const char* xml = "";      ///< element of <algorithm>; empty: not in XML
   const char* json = "";     ///< key of a solution; empty: not in JSON
-  const char* column = "";   ///< of the history's cases; empty: not part of a case
+  const char* column = "";   ///< of the history's cases; empty: kept under its key in JSON, if it has one
   bool always_told = false;  ///< written although it has its default
   bool is_list = false;      ///< takes several values, with commas between
   /// Words of ours and those that published files have for them. The first pair is written.
@@ -36,7 +36,7 @@ struct Option {
   std::string expected = {};  ///< end of a message about a wrong value: "a number from 1 to 100"
   /// The value as text, "yes" or "no" of a choice between these.
   std::function<std::string(const PlannerOptions&)> get = {};
-  /// Takes what get() writes, and true, false, 1, 0 for a choice. False, and nothing is changed, where the
+  /// Takes what get() writes, and true, false, 1, 0 for a choice. False, and nothing is changed, if the
   /// text is no value of this option.
   std::function<bool(PlannerOptions&, std::string_view)> set = {};
 };
@@ -44,7 +44,7 @@ struct Option {
 using OptionRows = std::span<const Option>;
 /// In the order in which they are shown and written.
 OptionRows option_rows();
-/// None where there is no such option.
+/// None if there is no such option.
 const Option* find_option(std::string_view name, OptionRows rows = option_rows());
 
 /// Whether the option has another value than by default.
@@ -67,10 +67,10 @@ struct OptionValues {
   std::vector<std::string> texts;
 };
 
-/// Options that somebody stated, on a command line or in a file; all others are left open.
+/// The options that a command line or a file states; all others are left open.
 class StatedOptions {
  public:
-  /// False, and nothing is stated, where the text is no value of the option.
+  /// False, and nothing is stated, if the text is no value of the option.
   bool state(const Option& option, std::string_view text);
   bool states(std::string_view name) const;
   bool empty() const { return stated_.empty(); }

@@ -25,13 +25,13 @@ enum class Rescheduling {
   kEjection,       ///< the failed robot is planned and those in its way are planned again
 };
 
-/// Who plans.
+/// The planner.
 enum class Method {
   kPrioritized,  ///< one robot after the other, in priority order
   kComplete,     ///< all robots at once on the grid of four neighbours: planner/complete/
 };
 
-/// What happens where prioritized planning ends without a plan, or at its limit.
+/// What to do if prioritized planning ends without a plan or reaches a limit.
 enum class Fallback {
   kNone,      ///< report it
   kComplete,  ///< Method::kComplete plans
@@ -54,7 +54,7 @@ inline bool is_ssi(double ssi_s) { return (ssi_s >= 0 && ssi_s <= kMaxSsiS) || s
 inline constexpr double kDefaultSsi = 5;
 /// Wall-clock seconds; the paper used five minutes.
 inline constexpr double kDefaultTimeLimitS = 300;
-/// Largest weight of the heuristic: nobody asks for a path a hundred times as long.
+/// Largest weight of the heuristic: no use needs a path a hundred times as long.
 inline constexpr double kMaxWeight = 100;
 /// Most threads of an improvement: each holds a copy of the plan.
 inline constexpr unsigned kMostThreads = 64;
@@ -97,7 +97,7 @@ std::string format_improve_budget(const ImproveBudget& budget);
 
 struct PlannerOptions {
   double ssi_s = kDefaultSsi;  ///< start-safe interval; 0 turns it off
-  /// Escalation: longer start-safe intervals, tried in turn where the one before them fails.
+  /// Escalation: longer start-safe intervals, tried in turn, each if the one before it fails.
   std::vector<double> longer_ssi_s;
   InitialOrder order = InitialOrder::kShortestFirst;
   Rescheduling rescheduling = Rescheduling::kDeterministic;
@@ -114,7 +114,7 @@ struct PlannerOptions {
   const std::atomic<bool>* stop = nullptr;
 
   Method method = Method::kPrioritized;
-  /// The limits hold for it anew: it begins where they have struck.
+  /// The limits apply to it separately: it begins after they were reached.
   Fallback fallback = Fallback::kNone;
 
   /// All methods in turn, then improvement for what is left of the time limit.

@@ -13,7 +13,7 @@
 namespace sipplab {
 namespace {
 
-/// Restarts of the method of the options: where it needs many more, ejection is faster.
+/// Restarts of the method of the options: if it needs many more, ejection is faster.
 /// (Trials on the paper's warehouse: 3 tries on average at 128 robots, 11 at 160.)
 constexpr std::uint64_t kMethodRestarts = 1;
 /// Restarts with each longer start-safe interval.
@@ -85,8 +85,8 @@ class BestPlan {
     return 0;
   }
 
-  /// The options of a step other than the fallback; none where it cannot be taken. The first
-  /// one always can, others only where something is left of every limit.
+  /// The options of a step other than the fallback; none if it cannot be taken. The first
+  /// one always can, others only if something is left of every limit.
   std::optional<PlannerOptions> options_of(BestStep::Kind kind, double ssi_s) const {
     const bool is_first = planned_.trace.empty();
     PlannerOptions step = options_;
@@ -156,7 +156,7 @@ class BestPlan {
   std::vector<double> longer_ssi_s_;
   bool has_fallback_;  ///< whether the complete planner knows such instances
   Clock::time_point begin_;
-  PlanResult fallback_;  ///< of the complete planner; failed where it was not asked
+  PlanResult fallback_;  ///< of the complete planner; failed if it was not asked
   PlanResult planned_;   ///< of the other steps
   SolveResult result_;
 };
@@ -164,17 +164,8 @@ class BestPlan {
 }  // namespace
 
 std::string_view name(BestStep::Kind kind) {
-  switch (kind) {
-    case BestStep::Kind::kMethod:
-      return "method";
-    case BestStep::Kind::kEscalation:
-      return "escalation";
-    case BestStep::Kind::kEjection:
-      return "ejection";
-    case BestStep::Kind::kFallback:
-      return "fallback";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"method", "escalation", "ejection", "fallback"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 SolveResult best_plan(const Instance& instance, const PlannerOptions& options) {

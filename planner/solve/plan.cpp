@@ -23,7 +23,7 @@ PlanStatus status_of(LacamStatus status) {
   return PlanStatus::kFailed;
 }
 
-/// Goes on where `result` has no plan.
+/// Goes on if `result` has no plan.
 void plan_all_at_once(const Instance& instance, const PlannerOptions& options, PlanResult& result) {
   result.made_by = Method::kComplete;
   result.ssi_s = options.ssi_s;

@@ -1,4 +1,4 @@
-// A first plan: the method that the options name, longer start-safe intervals where it fails, and the
+// A first plan: the method that the options name, longer start-safe intervals if it fails, and the
 // fallback.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace sipplab {
 
 /// Plans by what the options name: prioritized planning with its re-scheduling, or the complete planner as
 /// their method or as their fallback. What the latter does is counted as one more try, its steps as
-/// expansions and its configurations as generations. Escalation: where the method fails with options.ssi_s,
+/// expansions and its configurations as generations. Escalation: if the method fails with options.ssi_s,
 /// it is run again with each of options.longer_ssi_s in turn. Tries and work are those of all runs, and so
 /// are the limits. Of the options, those of improvement are not looked at: see solve(). REQUIRES:
 /// !find_error(instance) and !find_beyond(instance, options).

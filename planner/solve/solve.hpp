@@ -15,17 +15,17 @@ namespace sipplab {
 struct SolveResult {
   PlanResult plan;              ///< before improvement
   std::vector<BestStep> steps;  ///< of options.best
-  /// None where there is no plan, or nobody asked for it.
+  /// None if there is no plan, or if it was not asked for.
   std::optional<ImproveResult> improvement;
 
   bool is_solved() const { return plan.status == PlanStatus::kSolved; }
   const Solution& solution() const { return improvement ? improvement->solution : plan.solution; }
-  /// The final order; where the plan keeps the promise of start-safe intervals in none, the one
+  /// The final order; if the plan keeps the promise of start-safe intervals in no order, the one
   /// in which robots were planned.
   const PriorityOrder& order() const {
     return improvement && improvement->order ? *improvement->order : plan.order();
   }
-  /// How long it keeps starts safe, in that order; 0 where it promises nothing of them.
+  /// How long it keeps starts safe, in that order; 0 if it promises nothing of them.
   double ssi_kept_s() const { return improvement && !improvement->log.keeps_promise ? 0 : plan.ssi_kept_s; }
   /// What the validator is to check of a plan that was made under these rules.
   ValidationOptions promises(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
@@ -41,7 +41,7 @@ struct SolveResult {
 /// and times.
 std::optional<std::string> find_beyond(const Instance& instance, const PlannerOptions& options);
 
-/// Plans as the options say; where they ask for it, all methods in turn, and improvement of the plan.
+/// Plans as the options say; if they ask for it, with all methods in turn, and improves the plan.
 /// REQUIRES: !find_error(instance) and !find_beyond(instance, options).
 SolveResult solve(const Instance& instance, const PlannerOptions& options);
 

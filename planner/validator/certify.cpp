@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kForeverS = std::numeric_limits<double>::infinity();
 
-/// A span of uniform motion, or of rest where the two cells are equal.
+/// A span of uniform motion, or of rest if the two cells are equal.
 struct Leg {
   double begin_s = 0;
   double end_s = kForeverS;
@@ -41,7 +41,7 @@ struct Life {
   Box box;
 };
 
-/// Nothing where motions do not follow each other exactly.
+/// Nothing if motions do not follow each other exactly.
 std::optional<Life> make_life(const Trajectory& trajectory, double radius_cells) {
   Life life;
   life.radius_cells = Enclosure(radius_cells);
@@ -61,7 +61,7 @@ std::optional<Life> make_life(const Trajectory& trajectory, double radius_cells)
   return life;
 }
 
-/// The way from one centre to the other.
+/// The line from one centre to the other.
 struct Way {
   Enclosure x;
   Enclosure y;
@@ -148,7 +148,7 @@ class PairProof {
     return place_at(a, time_s) - place_at(b, time_s);
   }
 
-  /// While both move uniformly, the way between them runs straight from `first` to
+  /// While both move uniformly, the line between them runs straight from `first` to
   /// `last`. Is all of that segment far enough from the origin?
   bool is_safe(const Way& first, const Way& last) const {
     if (least_cells_.high <= 0) return true;  // bodies so small that no overlap is too deep
@@ -216,15 +216,8 @@ PairVerdict certify_lives(const Life& a, const Life& b) {
 }  // namespace
 
 std::string_view name(PairCertificate certificate) {
-  switch (certificate) {
-    case PairCertificate::kSafe:
-      return "safe";
-    case PairCertificate::kCollision:
-      return "collision";
-    case PairCertificate::kUndecided:
-      return "undecided";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"safe", "collision", "undecided"};
+  return kNames[static_cast<std::size_t>(certificate)];
 }
 
 PairVerdict certify_pair(const Trajectory& a, double radius_a_cells, const Trajectory& b,

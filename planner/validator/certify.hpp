@@ -39,7 +39,7 @@ PairVerdict certify_pair(const Trajectory& a, double radius_a_cells, const Traje
                          double radius_b_cells);
 
 /// Ways that hardly change while two bodies touch are the hard ones: rounding of places
-/// (1e-14 cells on a map of 100) hides the direction of a way of up to 1e-6 cells, and
+/// (1e-14 cells on a map of 100) hides the direction of a line of up to 1e-6 cells, and
 /// parts of 1e-8, the tolerance, are decided by their length alone. Some hundreds do.
 inline constexpr int kCertifiedParts = 1024;
 
@@ -63,7 +63,7 @@ struct Certification {
 
 /// Certifies each pair of robots and each robot with each dynamic obstacle. Says nothing of
 /// what a trajectory promises on its own: that is for validate(). All pairs of a robot
-/// without trajectory are undecided. O(n^2) pairs, of which those whose ways stay apart
+/// without trajectory are undecided. O(n^2) pairs, of which those whose paths stay apart
 /// cost a comparison.
 /// REQUIRES: !find_error(instance).
 Certification certify(const Instance& instance, const Solution& solution, std::size_t max_findings = 100);

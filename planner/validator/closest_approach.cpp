@@ -6,7 +6,7 @@
 namespace sipplab {
 namespace {
 
-/// `apart` is the way from one point to the other at begin_s, `velocity` its change.
+/// `apart` is the vector from one point to the other at begin_s, `velocity` its change.
 Approach least_distance(Vec2 apart, Vec2 velocity, double begin_s, double end_s) {
   // |apart + velocity * s|^2 = |velocity|^2 s^2 + 2 (apart . velocity) s + |apart|^2.
   const double curvature = squared_norm(velocity);

@@ -15,7 +15,7 @@ namespace sipplab {
 /// the last place away from the computed one, and the next double on either side is
 /// beyond it. Laws, for all reals a in A and b in B:
 ///  (1) a + b is in A + B, and likewise for -, *, square and square_root;
-///  (2) a / b is in A / B where b is not 0;
+///  (2) a / b is in A / B if b is not 0;
 ///  (3) after an overflow, or a division by an interval with 0 in it, the result
 ///      still holds every value that it has to, at worst all numbers.
 struct Enclosure {
@@ -74,7 +74,7 @@ inline Enclosure operator/(Enclosure a, Enclosure b) {
   return Enclosure::outwards(low, high);
 }
 
-/// Never below 0, and narrower than a * a where a may be 0.
+/// Never below 0, and narrower than a * a if a may be 0.
 inline Enclosure square(Enclosure a) {
   const double least = a.low > 0 ? a.low : a.high < 0 ? -a.high : 0.0;
   const double most = std::max(std::abs(a.low), std::abs(a.high));
@@ -88,7 +88,7 @@ inline Enclosure square_root(Enclosure a) {
   return {std::max(0.0, result.low), result.high};
 }
 
-/// True only where it holds for every pair of numbers in the two; the rest is not
+/// True only if it holds for every pair of numbers in the two; the rest is not
 /// "greater" but unknown.
 inline bool certainly_less(Enclosure a, Enclosure b) { return a.high < b.low; }
 inline bool certainly_at_least(Enclosure a, Enclosure b) { return a.low >= b.high; }

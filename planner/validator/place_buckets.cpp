@@ -11,7 +11,7 @@
 namespace sipplab {
 namespace {
 
-/// Steps allowed beside those that the number of motions allows, so that a few long
+/// Steps allowed in addition to those that the number of motions allows, so that a few long
 /// motions on a large map are still cut finely.
 constexpr double kFreeSteps = 1 << 14;
 constexpr double kStepsPerMotion = 8;

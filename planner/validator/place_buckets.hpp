@@ -72,7 +72,7 @@ std::vector<MotionStep> cut_into_steps(const std::vector<BodyTrack>& bodies, con
                                        double step_cells);
 
 /// A length for steps and for buckets' sides that keeps both numbers small: at most
-/// nine steps per motion on average (and some thousands beside), and a few buckets
+/// nine steps per motion on average (and some thousands more), and a few buckets
 /// per step, however long single motions and however large single bodies are.
 /// `reach_cells` is added to each radius.
 double choose_step_cells(const std::vector<BodyTrack>& bodies, const Surroundings& within,

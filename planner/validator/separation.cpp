@@ -97,7 +97,7 @@ class Sweep {
     return true;
   }
 
-  /// The least clearance found, or the reach where none was less.
+  /// The least clearance found, or the reach if none was less.
   double least_clearance_cells() const { return least_clearance_cells_; }
   void forget_clearance() { least_clearance_cells_ = std::numeric_limits<double>::infinity(); }
 

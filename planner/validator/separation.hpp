@@ -24,12 +24,12 @@ struct Separation {
   /// One for each pair of bodies in conflict, at its deepest; by time, then bodies.
   std::vector<BodyConflict> conflicts;
   /// Least clearance of all pairs compared, at most kClearanceReachCells; infinity
-  /// where there is no pair.
+  /// if there is no pair.
   double min_clearance_cells = std::numeric_limits<double>::infinity();
 };
 
 /// Compares all pairs of bodies for all time, except pairs of bodies that are both
-/// at or after position `robots` (obstacles move for nobody), and except where a
+/// at or after position `robots` (obstacles give way to no robot), and except if a
 /// body is so far outside the map that no robot belongs there. Conflicts are
 /// overlaps deeper than `tolerance_cells`. Stops early when `max_conflicts` pairs
 /// are found; the clearance is then that of the pairs compared so far.

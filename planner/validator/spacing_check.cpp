@@ -20,7 +20,7 @@ Approach closest_around(const LinearMotion& motion, const LinearMotion& fixed, d
   return closest_approach(motion, fixed.at(time_s), begin_s, end_s);
 }
 
-/// Where the ways of two moving points cross, if each comes by at a time of its span and
+/// Where the paths of two moving points cross, if each comes by at a time of its span and
 /// the two times are near enough.
 Approach crossing(const LinearMotion& a, const LinearMotion& b, double apart_s) {
   const double turn = cross(a.velocity_cells_per_s, b.velocity_cells_per_s);
@@ -67,7 +67,7 @@ Approach closest_within(const BodyTrack& a, const BodyTrack& b, double apart_s) 
 }  // namespace
 
 Approach closest_within(const LinearMotion& a, const LinearMotion& b, double apart_s) {
-  // The squared distance is convex over both times. Its least is 0 where two ways cross, or
+  // The squared distance is convex over both times. Its least is 0 if two paths cross, or
   // else on the border of what times are allowed: one point at an end of its motion, or
   // the two times as far from each other as may be.
   Approach least = crossing(a, b, apart_s);

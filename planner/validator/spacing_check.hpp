@@ -27,14 +27,14 @@ struct SpacingConflict {
 ///  (2) inflate_time_s: each robot at each time t against each later body at all times
 ///      from t - inflate_time_s to t + inflate_time_s.
 /// The bodies from position `robots` on are obstacles. O(n^2) pairs, times the motions of
-/// both; nothing where the rules are 0.
+/// both; nothing if the rules are 0.
 /// REQUIRES: `order` is empty or a permutation of the robots.
 std::vector<SpacingConflict> check_spacing(const std::vector<BodyTrack>& bodies, std::size_t robots,
                                            const std::vector<AgentIndex>& order, const MotionRules& rules,
                                            double tolerance_cells, std::size_t max_conflicts);
 
 /// Least distance of two points, each at a time of its own, the two at most `apart_s`
-/// from each other; `time_s` is that of `a`. Infinity where there are no such times.
+/// from each other; `time_s` is that of `a`. Infinity if there are no such times.
 Approach closest_within(const LinearMotion& a, const LinearMotion& b, double apart_s);
 
 }  // namespace sipplab

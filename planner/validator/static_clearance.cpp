@@ -84,7 +84,7 @@ StaticOverlap deepest_static_overlap(const GridMap& map, Cell from_cell, Cell to
   const Vec2 to = centre(to_cell);
   StaticOverlap deepest{0, 0, false, {}};
 
-  // A disk is farthest outside a rectangle at one of the ends of a straight way.
+  // A disk is farthest outside a rectangle at one of the ends of a straight move.
   const double outside_at_from = depth_outside(map, from, radius_cells);
   const double outside_at_to = depth_outside(map, to, radius_cells);
   if (std::max(outside_at_from, outside_at_to) > 0) {
@@ -96,7 +96,7 @@ StaticOverlap deepest_static_overlap(const GridMap& map, Cell from_cell, Cell to
   const CellSpan rows =
       cells_within(std::min(from.y, to.y) - reach, std::max(from.y, to.y) + reach, map.height());
   for (std::int32_t y = rows.first; y <= rows.last; ++y) {
-    // The part of the way that passes near this row bounds the columns.
+    // The part of the line that passes near this row bounds the columns.
     Range part;
     cut_to_slab(from.y, to.y, y, reach, part);
     if (part.begin > part.end) continue;

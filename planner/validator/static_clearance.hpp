@@ -7,7 +7,7 @@
 namespace sipplab {
 
 /// Distance between a straight segment and a closed unit square around a cell's
-/// centre; 0 where they meet. `at` is the place on the segment, from 0 (its first
+/// centre; 0 if they meet. `at` is the place on the segment, from 0 (its first
 /// end) to 1, where the distance is least; where the segment runs through the
 /// square, the middle of that part.
 struct SegmentDistance {

@@ -88,7 +88,7 @@ class Check {
     }
     const double due_s = distance(motion.from, motion.to) / agent_.speed_cells_per_s;
     const double error_s = std::abs(duration_s - due_s);
-    // Late enough, the tolerance of time excuses any duration, and a jump would be compared with nobody.
+    // Late enough, the tolerance of time excuses any duration, and a jump would be compared with no body.
     if (error_s <= time_tolerance_s(motion.end_s) && can_be_followed(motion)) return;
     report(ViolationKind::kSpeed, motion.begin_s, error_s,
            fmt::format("takes {} s from {} to {}, not {} s", duration_s, text(motion.from), text(motion.to),

@@ -19,7 +19,7 @@ bool check_trajectory(const Instance& instance, AgentIndex agent, const Trajecto
 /// Seconds. Errors of times that rounding explains, at this time.
 double time_tolerance_s(double time_s);
 
-/// How messages call an agent: its id, or its position where it has none.
+/// How messages call an agent: its id, or its position if it has none.
 std::string agent_label(const Instance& instance, AgentIndex agent);
 
 }  // namespace sipplab

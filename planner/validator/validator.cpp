@@ -97,33 +97,11 @@ void check_rules(const Instance& instance, const std::vector<BodyTrack>& bodies,
 }  // namespace
 
 std::string_view name(ViolationKind kind) {
-  switch (kind) {
-    case ViolationKind::kAgentCount:
-      return "agent-count";
-    case ViolationKind::kNotFinite:
-      return "not-finite";
-    case ViolationKind::kEndpoint:
-      return "endpoint";
-    case ViolationKind::kDiscontinuity:
-      return "discontinuity";
-    case ViolationKind::kSpeed:
-      return "speed";
-    case ViolationKind::kStaticObstacle:
-      return "static-obstacle";
-    case ViolationKind::kAgentCollision:
-      return "agent-collision";
-    case ViolationKind::kObstacleCollision:
-      return "obstacle-collision";
-    case ViolationKind::kStartSafeInterval:
-      return "start-safe-interval";
-    case ViolationKind::kHeading:
-      return "heading";
-    case ViolationKind::kStandingTime:
-      return "standing-time";
-    case ViolationKind::kSpacing:
-      return "spacing";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {
+      "agent-count",     "not-finite",      "endpoint",           "discontinuity",       "speed",
+      "static-obstacle", "agent-collision", "obstacle-collision", "start-safe-interval", "heading",
+      "standing-time",   "spacing"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 ValidationReport validate(const Instance& instance, const Solution& solution,

@@ -59,8 +59,8 @@ struct ValidationReport {
   std::vector<Violation> violations;
   /// Least distance of a robot and any other body (robot or dynamic obstacle) minus
   /// the sum of their radii, in cells: negative means overlap, however small. Exact
-  /// below kClearanceReachCells (1); where all are farther apart than that, that
-  /// value. Infinity where there is nothing to compare: no two bodies, or a solution
+  /// below kClearanceReachCells (1); if all are farther apart than that, that
+  /// value. Infinity if there is nothing to compare: no two bodies, or a solution
   /// without usable times. Where max_violations ended the comparison early, that of
   /// the pairs compared so far.
   double min_clearance_cells = std::numeric_limits<double>::infinity();

@@ -24,7 +24,7 @@ class Builder:
         self._configure(compiler)
 
     def targets(self, names):
-        """What the compiler says where it fails, else nothing."""
+        """What the compiler says if it fails, else nothing."""
         done = subprocess.run(["ninja", "-C", str(self.build), f"-j{self.jobs}", *names],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return "" if done.returncode == 0 else done.stdout[-3000:]

@@ -51,7 +51,7 @@ def find_errors(mutants, root=ROOT):
 
 
 def wanted(mutants, only):
-    """Those named, by mutant or by room; all where none is."""
+    """Those named, by mutant or by room; all if none is."""
     if not only:
         return mutants
     unknown = set(only) - {mutant["name"] for mutant in mutants} - {mutant["room"] for mutant in mutants}
@@ -81,7 +81,7 @@ def includes(file):
 
 
 def reachable_files(root, sources):
-    """The headers that the sources include, and the sources beside a header that include
+    """The headers that the sources include, and the sources next to a header that include
     it, all the way down. Too many rather than too few."""
     users = {}
     for folder in ("planner", "db", "property_tests/support"):

@@ -97,7 +97,7 @@ class Run:
                 "lines": self.lines, "size": size_of_counterexample(self.lines)}
 
     def _watch(self, reader, time_limit_s):
-        """Waits for the end; true where the program had to be ended for its time."""
+        """Waits for the end; true if the program had to be killed for its time."""
         self.seconds, asleep_since = 0.0, time.monotonic()
         while reader.is_alive():
             reader.join(0.1)
@@ -156,7 +156,7 @@ def processor_use(pid):
 
 
 def size_of_counterexample(lines):
-    """Robots and cells of the case that is printed, where one is: of the planned one rather
+    """Robots and cells of the case that is printed, if one is: of the planned one rather
     than of what was drawn."""
     planned = [number for number, line in enumerate(lines) if line.startswith("the case that was planned")]
     lines = lines[planned[-1]:] if planned else lines

@@ -1,6 +1,6 @@
 // AA-SIPP against SIPP. Plans of AA-SIPP are not the shortest that there are, but each
 // node that SIPP comes to is offered to AA-SIPP no later, step by step, and its straight
-// ways only add to that: with a heuristic that no way by steps falls below, no arrival is later.
+// moves only add to that: with a heuristic that no path by steps falls below, no arrival is later.
 #include <rapidcheck.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr std::int32_t kWidth = 6;
 constexpr std::int32_t kHeight = 5;
 constexpr int kMostWalks = 5;
 constexpr int kWorldsPerCase = 5;
-/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each.
+/// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each.
 constexpr double kArrivalS = 1e-6;
 
 /// One robot among obstacles that walk.
@@ -122,7 +122,7 @@ int main() {
       limits.latest_arrival_s = found->arrival_s() * *any_of({0.5, 0.9, 1 + kArrivalS, 1.5});
       const auto limited = search(world, any_angle, work, limits);
       if (limited) RC_ASSERT(limited->arrival_s() <= limits.latest_arrival_s);
-      // On a grid f never falls along a way, so that nothing is given up for its bound.
+      // On a grid f never falls along a path, so that nothing is given up for its bound.
       if (!any_angle) RC_ASSERT(limited.has_value() == (found->arrival_s() <= limits.latest_arrival_s));
       too_late = too_late || found->arrival_s() > limits.latest_arrival_s;
     }

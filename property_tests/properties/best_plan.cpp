@@ -31,7 +31,7 @@ std::vector<double> any_longer_ssi_s() {
                            std::vector<double>{1, 5, kInfiniteSsi});
 }
 
-/// More than the method and ejection use on maps of this size, and an end for the fallback where
+/// More than the method and ejection use on maps of this size, and an end for the fallback if
 /// there is no plan.
 constexpr std::uint64_t kAmpleExpansions = 200'000;
 

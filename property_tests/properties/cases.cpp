@@ -56,7 +56,7 @@ int main() {
 
   passed &= property("simpler cases keep the rules, and simplifying comes to an end", [] {
     PlanCase plan_case = *rc::gen::oneOf(any_case(), any_turning_case());
-    // Always the last offer: the least step, so the longest way.
+    // Always the last offer: the least step, so the longest path.
     int steps = 0;
     for (auto simpler = simpler_cases(plan_case); !simpler.empty(); simpler = simpler_cases(plan_case)) {
       for (const PlanCase& offer : simpler) RC_ASSERT(!find_error(offer.instance));

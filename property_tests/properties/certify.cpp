@@ -107,7 +107,7 @@ Touch side_by_side(std::int32_t cells, double speed) {
           1};
 }
 
-/// Two ways that cross at right angles, the second body late by as much as it takes.
+/// Two paths that cross at right angles, the second body late by as much as it takes.
 Touch crossing(std::int32_t cells, double speed) {
   const double late_s = std::sqrt(2.0) / speed;
   const double duration_s = 2 * cells / speed;

@@ -42,7 +42,7 @@ std::ostream& operator<<(std::ostream& out, const Convoy& convoy) {
 }
 
 rc::Gen<Convoy> any_convoy() {
-  // Late enough that nobody would have to depart before time 0.
+  // Late enough that no robot would have to depart before time 0.
   const auto any_begin = rc::gen::apply([](double base_s, double eighths_s) { return base_s + eighths_s; },
                                         any_of({100.0, 1000.0, 10000.0}), any_eighths(3));
   return rc::gen::build<Convoy>(

@@ -7,90 +7,12 @@
 #include <cmath>
 #include <vector>
 
-#include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/unsafe_times.hpp"
 
 namespace sipplab {
 namespace {
-
-/// Slacks from the end of an interval at which the verdict has to be that of its inside:
-/// an end is off by one slack, rounding included by two.
-constexpr double kSlacksInside = 4;
-/// How far from an end the times beside it are looked at, in seconds.
-constexpr double kBesideS[] = {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5};
-
-/// What one comparison of an interval with distances needs to know.
-struct Question {
-  OpenInterval unsafe;
-  BisectedSpan bisected;
-  double first_s;  ///< nothing can overlap before ...
-  double last_s;   ///< ... nor after, possibly kForever
-  double reach;
-  double slack_s;
-  double rounding_cells;
-  double rounding_s;
-};
-
-/// Times all over the span in which the two can meet, and dense around every end.
-std::vector<double> times_to_ask(const Question& question) {
-  const OpenInterval& unsafe = question.unsafe;
-  const BisectedSpan& bisected = question.bisected;
-  const double last_s = question.last_s == kForever ? bisected.deepest_s + 10 : question.last_s;
-  std::vector<double> times{bisected.deepest_s};
-  const auto spread = [&](double begin_s, double end_s) {
-    constexpr int kTimes = 24;
-    for (int i = 0; i <= kTimes; ++i) times.push_back(begin_s + (end_s - begin_s) * i / kTimes);
-  };
-  spread(question.first_s - 1, last_s + 1);
-  if (!unsafe.empty() && unsafe.end_s < kForever) spread(unsafe.begin_s, unsafe.end_s);
-  for (const double end_s : {unsafe.begin_s, unsafe.end_s, bisected.begin_s, bisected.end_s}) {
-    if (end_s == kForever) continue;
-    times.push_back(end_s);
-    for (const double beside_s : kBesideS) {
-      times.push_back(end_s - beside_s);
-      times.push_back(end_s + beside_s);
-    }
-    times.push_back(end_s - 2 * kSlacksInside * question.slack_s);
-    times.push_back(end_s + 2 * kSlacksInside * question.slack_s);
-  }
-  return times;
-}
-
-/// An end that is not where the obstacle's motion ends is a contact.
-template <class Distance>
-void check_end(const Question& question, double end_s, double motion_end_s, const Distance& distance) {
-  if (end_s == kForever) {
-    RC_ASSERT(motion_end_s == kForever);
-    return;
-  }
-  const double margin_s = 2 * question.slack_s + question.rounding_s;
-  if (std::abs(end_s - motion_end_s) <= margin_s) {
-    RC_ASSERT(distance(motion_end_s) <= question.reach + question.rounding_cells);
-    return;
-  }
-  const double off = distance(end_s) - question.reach;
-  RC_ASSERT(std::abs(off) <= kPermittedDepthCells + question.rounding_cells);
-}
-
-template <class Distance>
-void agrees_with_distances(const Question& question, const Distance& distance) {
-  const OpenInterval& unsafe = question.unsafe;
-  // Touching is not overlapping, however rounding falls.
-  if (question.bisected.least_cells > question.reach - kTouchDepthCells / 2) RC_ASSERT(unsafe.empty());
-  const double inside_s = kSlacksInside * question.slack_s + question.rounding_s;
-  for (const double time_s : times_to_ask(question)) {
-    const double apart = distance(time_s);
-    if (!unsafe.contains(time_s)) {
-      RC_ASSERT(apart >= question.reach - kPermittedDepthCells - question.rounding_cells);
-    } else if (time_s > unsafe.begin_s + inside_s && time_s < unsafe.end_s - inside_s) {
-      RC_ASSERT(apart < question.reach + question.rounding_cells);
-    }
-  }
-  if (unsafe.empty()) return;
-  check_end(question, unsafe.begin_s, question.first_s, distance);
-  check_end(question, unsafe.end_s, question.last_s, distance);
-}
 
 /// What the encounters of a case were like, for the statistics.
 struct Seen {
@@ -113,52 +35,21 @@ struct Seen {
   }
 };
 
-Question departures_of(const Encounter& encounter) {
-  const Move move = encounter.move();
-  const MovingDisk disk = encounter.obstacle();
-  const double latest_s = (disk.end_s == kForever ? disk.begin_s : disk.end_s) + move.duration;
-  return {unsafe_departures(move, disk, encounter.reach()),
-          bisect_departures(move, disk, encounter.reach()),
-          disk.begin_s - move.duration,
-          disk.end_s,
-          encounter.reach(),
-          kContactSlackCells / std::max(move.speed, disk.speed),
-          rounding_cells(latest_s, move.speed + disk.speed),
-          time_rounding_s(latest_s)};
+UnsafeTimes departures_of(const Encounter& encounter) {
+  return departures_of(encounter.move(), encounter.obstacle(), encounter.reach());
 }
 
-void check_departures(const std::vector<Encounter>& encounters) {
+UnsafeTimes collisions_of(const Encounter& encounter) {
+  return collisions_of(centre(encounter.from), encounter.obstacle(), encounter.reach());
+}
+
+void have_no_flaw(const std::vector<Encounter>& encounters, UnsafeTimes (*times_of)(const Encounter&)) {
   Seen seen;
   for (const Encounter& encounter : encounters) {
     RC_LOG() << encounter << std::endl;
-    const Question question = departures_of(encounter);
-    const Move move = encounter.move();
-    const MovingDisk disk = encounter.obstacle();
-    agrees_with_distances(question, [&](double departure_s) {
-      return closest_approach(leg_of(move, departure_s), leg_of(disk));
-    });
-    seen.add(question.bisected, question.reach);
-  }
-  seen.classify();
-}
-
-void check_collisions(const std::vector<Encounter>& encounters) {
-  Seen seen;
-  for (const Encounter& encounter : encounters) {
-    RC_LOG() << encounter << std::endl;
-    const Vec2 place = centre(encounter.from);
-    const MovingDisk disk = encounter.obstacle();
-    const double latest_s = disk.end_s == kForever ? disk.begin_s : disk.end_s;
-    const Question question{collision_interval(place, disk, encounter.reach()),
-                            bisect_collision(place, disk, encounter.reach()),
-                            disk.begin_s,
-                            disk.end_s,
-                            encounter.reach(),
-                            disk.at_rest() ? kContactSlackCells : kContactSlackCells / disk.speed,
-                            rounding_cells(latest_s, disk.speed),
-                            time_rounding_s(latest_s)};
-    agrees_with_distances(question, [&](double time_s) { return distance_at(place, disk, time_s); });
-    seen.add(question.bisected, question.reach);
+    const UnsafeTimes times = times_of(encounter);
+    RC_ASSERT(find_flaw(times) == "");
+    seen.add(times.bisected, times.reach);
   }
   seen.classify();
 }
@@ -179,10 +70,10 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
   int sure = 0;
   for (const Encounter& encounter : encounters) {
     RC_LOG() << encounter << std::endl;
-    const Question question = departures_of(encounter);
+    const UnsafeTimes question = departures_of(encounter);
     const Move move = encounter.move();
     const MovingDisk disk = encounter.obstacle();
-    std::vector<double> times = times_to_ask(question);
+    std::vector<double> times = times_to_check(question);
     const std::vector<double> ends = times_at_the_ends(question.unsafe, question.slack_s);
     times.insert(times.end(), ends.begin(), ends.end());
     for (const double departure_s : times) {
@@ -197,7 +88,7 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
       if (!together) RC_ASSERT(!quick);
       // Where the two are there together for next to no time, their distance is not asked.
       if (departure_s < question.first_s + margin_s || departure_s > question.last_s - margin_s) continue;
-      const double apart = closest_approach(leg_of(move, departure_s), leg_of(disk));
+      const double apart = question.distance(departure_s);
       if (apart > encounter.reach() + kNearMissCells + question.rounding_cells) RC_ASSERT(!quick);
     }
     seen.add(question.bisected, question.reach);
@@ -206,8 +97,8 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
   seen.classify();
 }
 
-/// Samples along the way, each of which speaks for a stretch around it. True when some of
-/// the way intrudes.
+/// Samples along the path, each of which speaks for a stretch around it. True when some of
+/// the path intrudes.
 bool agrees_with_samples(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {
   constexpr int kSamples = 500;
   const double stretch = way.length / kSamples / 2 + kPermittedDepthCells;
@@ -235,10 +126,10 @@ int main() {
   bool passed = true;
 
   passed &= property("unsafe_departures (1)(3): overlap inside, none outside, contact at the ends",
-                     [] { check_departures(*any_encounters()); });
+                     [] { have_no_flaw(*any_encounters(), departures_of); });
 
   passed &= property("collision_interval (1)(3): overlap inside, none outside, contact at the ends",
-                     [] { check_collisions(*any_encounters()); });
+                     [] { have_no_flaw(*any_encounters(), collisions_of); });
 
   passed &= property(
       "closeness (1)(2)(3): misses no unsafe departure, leaves out those far apart, is sure of overlaps",

@@ -53,7 +53,7 @@ PriorityOrder first_order(PlanCase plan_case) {
   return plan(plan_case.instance, plan_case.options).trace.front().order;
 }
 
-/// Plays the trace: whoever is next in the queue is planned or fails, and those whom a
+/// Plays the trace: the next in the queue is planned or fails, and those that a
 /// failed robot ejects were planned before and are next.
 void tells_what_happened(const PlanCase& plan_case, const PlanResult& result) {
   const PriorityOrder first = first_order(plan_case);

@@ -94,7 +94,7 @@ rc::Gen<Instance> any_instance() {
                    rc::gen::resize(3, rc::gen::container<std::vector<DynamicObstacle>>(any_obstacle()))));
 }
 
-/// The parts of one file as an instance; nothing where it holds no map.
+/// The parts of one file as an instance; nothing if it holds no map.
 std::optional<Instance> joined(InstanceParts parts) {
   if (!parts.map) return std::nullopt;
   Instance instance;

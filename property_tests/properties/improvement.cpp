@@ -70,7 +70,7 @@ Attempt first_better(const Round& round, PartialPlan& plan) {
   return {};
 }
 
-/// Straight sections between all cells at which a disk may be, shortest ways by Floyd and Warshall.
+/// Straight sections between all cells at which a disk may be, shortest paths by Floyd and Warshall.
 class AllWays {
  public:
   AllWays(const GridMap& map, const LineOfSight& line_of_sight)

@@ -1,5 +1,5 @@
 // Places that the reservation table keeps robots away from for ever, one disk excepted:
-// what a start-safe interval without end asks of it. Against ways that are sampled.
+// what a start-safe interval without end asks of it. Against sampled paths.
 #include "planner/reservation/reservation_table.hpp"
 
 #include <rapidcheck.h>
@@ -22,7 +22,7 @@ namespace {
 constexpr std::int32_t kWidth = 8;
 constexpr std::int32_t kHeight = 7;
 constexpr double kLargestRadiusCells = 1.5;
-/// Cells between two samples of a way, and how far from an edge a sample says something.
+/// Cells between two samples of a path, and how far from an edge a sample says something.
 constexpr double kSampleCells = 1.0 / 64;
 constexpr double kEdgeCells = 1e-6;
 
@@ -72,7 +72,7 @@ rc::Gen<std::vector<Value>> up_to(std::size_t most, const rc::Gen<Value>& any) {
 
 enum class Verdict { kIntrudes, kKeepsAway, kNearTheEdge };
 
-/// What samples of the way say about one keepout.
+/// What samples of the path say about one keepout.
 Verdict sampled(const Keepout& keepout, const Question& question) {
   const double reach = keepout.radius + question.radius;
   const Vec2 from = centre(question.from);
@@ -88,7 +88,7 @@ Verdict sampled(const Keepout& keepout, const Question& question) {
     away = away && (to_place >= reach + missed || to_pardoned <= reach - missed - kEdgeCells);
   }
   if (away) return Verdict::kKeepsAway;
-  // A straight way that touches: where it comes nearest is known.
+  // A straight move that touches: where it comes nearest is known.
   const Leg leg{from, centre(question.to), 0, 1};
   const bool touches = closest_approach(leg, leg_at(centre(keepout.place))) >= reach;
   return touches ? Verdict::kKeepsAway : Verdict::kNearTheEdge;

@@ -24,11 +24,11 @@ namespace {
 /// Rounding of sums of square roots.
 constexpr double kRoundingCells = 1e-9;
 /// Cells from the middle of the grid to its border, and farthest displacement looked at:
-/// a shortest way does not leave the rectangle around it by more than one step.
+/// a shortest path does not leave the rectangle around it by more than one step.
 constexpr std::int32_t kHalfSide = 16;
 constexpr std::int32_t kFarthest = 12;
 
-/// Lengths of shortest ways from a cell over steps that `may_step(from, to)`; infinity where there is none.
+/// Lengths of shortest paths from a cell over steps that `may_step(from, to)`; infinity if there is none.
 template <class MayStep>
 std::vector<double> shortest_ways(const GridMap& map, Cell from, int k, MayStep&& may_step) {
   std::vector<double> length(map.cell_count(), std::numeric_limits<double>::infinity());

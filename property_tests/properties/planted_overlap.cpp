@@ -1,5 +1,5 @@
 // The validator finds every planted overlap, with pair, time and depth, and lets touching
-// pass. Depths come from radii: on a grid two ways are whole numbers of cells apart.
+// pass. Depths come from radii: on a grid two paths are whole numbers of cells apart.
 #include <rapidcheck.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Planted {
   double time_s = 0;  ///< of the deepest overlap
 };
 
-/// Robot 0 rests beside row 0, on which robot 1 drives by, comes to its goal, or begins.
+/// Robot 0 rests next to row 0, on which robot 1 passes, ends or begins.
 Planted plant(Meeting meeting, double depth_cells) {
   const int apart = *rc::gen::element(1, 2);
   const int length = *rc::gen::element(2, 4, 6, 12);

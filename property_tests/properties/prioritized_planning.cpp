@@ -27,10 +27,10 @@
 namespace sipplab {
 namespace {
 
-/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each; another way is
+/// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each; another path is
 /// later or earlier by far more.
 constexpr double kArrivalS = 1e-6;
-/// Cells. At the very edge of the own goal's disk a way may be judged either way.
+/// Cells. At the very edge of the own goal's disk a path may be judged either way.
 constexpr double kEdgeCells = 1e-6;
 
 constexpr std::int32_t kWidth = 6;

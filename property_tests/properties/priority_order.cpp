@@ -16,7 +16,7 @@
 namespace sipplab {
 namespace {
 
-/// The least time that a robot needs, where a formula is at hand: any-angle, or four
+/// The least time that a robot needs, if a formula is at hand: any-angle, or four
 /// neighbours.
 double least_time_s(const Agent& agent, bool any_angle) {
   const double steps = std::abs(agent.goal.x - agent.start.x) + std::abs(agent.goal.y - agent.start.y);
@@ -48,7 +48,7 @@ int any_between(int first, int last) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(first, last + 1));
 }
 
-/// A goal at most so many columns and rows from the start of a robot that is planned
+/// A goal at most this many columns and rows from the start of a robot that is planned
 /// later, and room to step aside.
 PlanCase goal_by_a_protected_start(int most_apart) {
   constexpr int kLeast = 5;  // cells between the two, so that there is time to leave

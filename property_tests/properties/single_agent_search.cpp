@@ -19,7 +19,7 @@
 namespace sipplab {
 namespace {
 
-/// Seconds. Slacks at contacts add up along a way, 1e-9 to 1e-8 each; another way is
+/// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each; another path is
 /// later or earlier by far more.
 constexpr double kArrivalS = 1e-6;
 /// Seconds. Rounding of sums of square roots.
@@ -112,7 +112,7 @@ void fill(ReservationTable& reservations, const Instance& instance) {
 
 struct Outcome {
   std::optional<Trajectory> trajectory;
-  PlanFailure failure = PlanFailure::kNoPath;  ///< where there is no trajectory
+  PlanFailure failure = PlanFailure::kNoPath;  ///< if there is no trajectory
   SearchStatistics statistics;
 };
 
@@ -238,19 +238,19 @@ void is_straight_or_stepwise_alone(World world) {
   }
 }
 
-/// How much later than the earliest arrival by steps a weighted search is, as a factor; none where
-/// there is no way.
+/// How much later than the earliest arrival by steps a weighted search is, as a factor; none if
+/// there is no path.
 std::optional<double> is_late_by_its_weight_at_most(const Instance& instance, const SippOptions& options,
                                                     std::optional<double> earliest_s) {
   const Outcome outcome = search(instance, options);
-  // Straight ways may lead where steps do not.
+  // Straight moves may lead where steps do not.
   RC_ASSERT(outcome.trajectory.has_value() == earliest_s.has_value() || (options.any_angle && !earliest_s));
   if (!earliest_s) return std::nullopt;
   const double arrival_s = outcome.trajectory->arrival_s();
   RC_LOG() << arrival_s << " s with weight " << options.weight << ", earliest " << *earliest_s << " s"
            << std::endl;
   RC_ASSERT(arrival_s <= options.weight * *earliest_s + kArrivalS);
-  if (!options.any_angle) {  // else f may fall along a way
+  if (!options.any_angle) {  // else f may fall along a path
     RC_ASSERT(arrival_s >= *earliest_s - kArrivalS);
     SearchLimits just_in_time;
     just_in_time.latest_arrival_s = arrival_s + kRoundingS;
@@ -259,7 +259,7 @@ std::optional<double> is_late_by_its_weight_at_most(const Instance& instance, co
   return *earliest_s > 0 ? arrival_s / *earliest_s : 1;
 }
 
-/// By how many seconds a way got shorter when it was pulled tight; none where there is no way.
+/// By how many seconds a path got shorter when it was pulled tight; none if there is no path.
 std::optional<double> gains_by_elastic(const World& world, SippOptions options) {
   const Instance instance = world.instance();
   const Outcome tight = search(instance, options);
@@ -275,7 +275,7 @@ std::optional<double> gains_by_elastic(const World& world, SippOptions options) 
   return gain_s;
 }
 
-/// Every stop is left as soon as the way to the next one is safe and ends in the safe interval in which it
+/// Every stop is left as soon as the move to the next one is safe and ends in the safe interval in which it
 /// does. How many are left later than they were reached.
 int leaves_each_stop_early(const Instance& instance, const Trajectory& trajectory) {
   const PlainTable table{disks_of(instance)};

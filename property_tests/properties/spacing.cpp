@@ -30,7 +30,7 @@ constexpr double kLongEnoughS = 16;
 /// Cells. Rounding of positions of some ten cells.
 constexpr double kRoundingCells = 1e-9;
 
-/// Quarters, so that ways cross in samples, ends meet, and velocities are equal now and then.
+/// Quarters, so that paths cross in samples, ends meet, and velocities are equal now and then.
 double quarters(int least, int most) { return 0.25 * *rc::gen::inRange(least, most + 1); }
 
 LinearMotion make_motion() {

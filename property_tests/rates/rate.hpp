@@ -21,7 +21,7 @@ struct Rate {
 
   std::int64_t applicable() const { return held + broken; }
   std::int64_t cases() const { return applicable() + not_applicable; }
-  /// 0 to 1; nothing where no case was applicable.
+  /// 0 to 1; nothing if no case was applicable.
   std::optional<double> value() const;
   db::statistics::ConfidenceInterval interval() const;
 };

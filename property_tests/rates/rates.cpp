@@ -2,7 +2,7 @@
 //
 //     rates [--cases N] [--seed S]
 //
-// A table goes to stdout and, where SIPPLAB_PROPERTY_LOG names a file, one line for
+// A table goes to stdout and, if SIPPLAB_PROPERTY_LOG names a file, one line for
 // each relation to that. A low rate is no failure; exit code 1 means that counts do not add
 // up or that the log cannot be written, 2 bad usage.
 #include <chrono>
@@ -77,12 +77,12 @@ std::vector<Measured> measure(const Budget& budget) {
 }
 
 /// A property run whose classes are the outcomes, so that the history keeps it as one,
-/// with the kind "rate" and the interval beside it.
+/// with the kind "rate" and the interval next to it.
 std::string log_line(const Measured& measured, const Budget& budget) {
   const Rate& rate = measured.rate;
   db::PropertyRun record;
-  record.uuid = new_property_uuid();
-  record.started_utc = utc_text(std::chrono::system_clock::now());
+  record.uuid = db::new_uuid();
+  record.started_utc = db::utc_now();
   record.room = "rates";
   record.title = rate.title;
   record.seed = budget.seed;

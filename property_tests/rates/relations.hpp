@@ -25,7 +25,7 @@ Planned plan_of(PlanCase plan_case);
 
 struct Relation {
   std::string title;  ///< a sentence
-  /// Whether it holds for the case; nothing where it does not apply, or where a limit
+  /// Whether it holds for the case; nothing if it does not apply, or if a limit
   /// ended a plan first. Draws what it has to choose.
   std::optional<bool> (*holds)(const Planned& planned, Random& random);
 };

@@ -114,7 +114,7 @@ Instance convoy(Random& random, int size) {
     agent.speed_cells_per_s = i == 0 ? slow : 1.0;
     try_add(instance, agent);
   }
-  // Somebody who comes the other way.
+  // A robot that comes from the other side.
   if (random.one_in(2)) add_anywhere(random, instance, {});
   return instance;
 }
@@ -178,21 +178,9 @@ PlannerOptions draw_options(Random& random) {
 }  // namespace
 
 std::string_view name(CaseFamily family) {
-  switch (family) {
-    case CaseFamily::kScattered:
-      return "scattered";
-    case CaseFamily::kDense:
-      return "dense";
-    case CaseFamily::kCorridor:
-      return "corridor";
-    case CaseFamily::kContactStarts:
-      return "contact starts";
-    case CaseFamily::kConvoy:
-      return "convoy";
-    case CaseFamily::kMixedBodies:
-      return "mixed bodies";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"scattered",      "dense",  "corridor",
+                                         "contact starts", "convoy", "mixed bodies"};
+  return kNames[static_cast<std::size_t>(family)];
 }
 
 PlanCase make_case(CaseFamily family, int size, std::uint64_t seed) {

@@ -12,13 +12,13 @@
 namespace sipplab {
 namespace {
 
-/// Changes that break a rule are taken back; so many are tried for one that does not.
+/// Changes that break a rule are taken back; this many are tried for one that does not.
 constexpr int kAttempts = 8;
-/// One mutation in so many begins anew.
+/// One mutation in this many begins with a new case.
 constexpr std::uint64_t kFreshOneIn = 64;
-/// One in so many gets another seed: random orders, and what a target decides by it.
+/// One in this many gets another seed: random orders, and what a target decides by it.
 constexpr std::uint64_t kReseededOneIn = 4;
-/// One in so many may have fewer than two robots.
+/// One in this many may have fewer than two robots.
 constexpr std::uint64_t kLonelyOneIn = 16;
 /// Size of fresh cases, of 100: maps of about five cells a side.
 constexpr int kFreshSize = 25;
@@ -28,7 +28,7 @@ Item& pick(Random& random, std::vector<Item>& items) {
   return items[static_cast<std::size_t>(random.below(items.size()))];
 }
 
-/// A cell beside this one, or the same where that would leave the map.
+/// A cell next to this one, or the same if that would leave the map.
 Cell step_from(Random& random, const GridMap& map, Cell cell) {
   const Cell next{cell.x + static_cast<std::int32_t>(random.below(3)) - 1,
                   cell.y + static_cast<std::int32_t>(random.below(3)) - 1};
@@ -49,7 +49,7 @@ void number(Instance& instance) {
 void add_robot(Random& random, Instance& instance) {
   if (instance.agents.size() >= kMutatedRobots) return;
   Agent agent;
-  // Beside another one, or anywhere.
+  // Next to another one, or anywhere.
   const bool beside = !instance.agents.empty() && random.one_in(2);
   if (beside) agent = pick(random, instance.agents);
   agent.start = beside ? step_from(random, instance.map, agent.start) : draw_cell(random, instance.map);

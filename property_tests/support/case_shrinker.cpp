@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "planner/options/option_table.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -22,7 +24,6 @@ class Shrinker {
     fewer_blocked_cells();
     plainer_bodies();
     plainer_options();
-    fewer_rules();
     return std::move(simpler_);
   }
 
@@ -129,29 +130,21 @@ class Shrinker {
   }
 
   void plainer_options() {
-    const PlannerOptions& options = from_.options;
-    if (options.rescheduling != Rescheduling::kNone) {
-      offer([](PlanCase& it) { it.options.rescheduling = Rescheduling::kNone; });
+    PlannerOptions plain;
+    plain.rescheduling = Rescheduling::kNone;
+    plain.order = InitialOrder::kFifo;
+    plain.any_angle = false;
+    plain.seed = 0;
+    plain.ssi_s = 0;
+    for (const Option& option : option_rows()) {
+      const std::string text = option.get(plain);
+      if (option.group == OptionGroup::kLimits || option.get(from_.options) == text) continue;
+      offer([&](PlanCase& it) { option.set(it.options, text); });
     }
-    if (options.order != InitialOrder::kFifo)
-      offer([](PlanCase& it) { it.options.order = InitialOrder::kFifo; });
-    if (options.any_angle) offer([](PlanCase& it) { it.options.any_angle = false; });
-    if (options.connectedness > 2) offer([](PlanCase& it) { --it.options.connectedness; });
-    if (options.weight > 1) offer([](PlanCase& it) { it.options.weight = 1; });
-    if (options.seed != 0) offer([](PlanCase& it) { it.options.seed = 0; });
-    if (options.ssi_s > 0) offer([](PlanCase& it) { it.options.ssi_s = 0; });
-    if (std::isinf(options.ssi_s)) offer([](PlanCase& it) { it.options.ssi_s = 8; });
-    if (options.ssi_s != std::floor(options.ssi_s))
-      offer([](PlanCase& it) { it.options.ssi_s = std::floor(it.options.ssi_s); });
-  }
-
-  void fewer_rules() {
-    const MotionRules& rules = from_.options.rules;
-    if (rules.turns) offer([](PlanCase& it) { it.options.rules.turns = false; });
-    if (rules.wait_before_move_s > 0) offer([](PlanCase& it) { it.options.rules.wait_before_move_s = 0; });
-    if (rules.inflate_distance_cells > 0)
-      offer([](PlanCase& it) { it.options.rules.inflate_distance_cells = 0; });
-    if (rules.inflate_time_s > 0) offer([](PlanCase& it) { it.options.rules.inflate_time_s = 0; });
+    const double ssi_s = from_.options.ssi_s;
+    if (std::isinf(ssi_s)) offer([](PlanCase& it) { it.options.ssi_s = 8; });
+    if (ssi_s != std::floor(ssi_s)) offer([&](PlanCase& it) { it.options.ssi_s = std::floor(ssi_s); });
+    if (from_.options.connectedness > 2) offer([](PlanCase& it) { --it.options.connectedness; });
   }
 
   const PlanCase& from_;

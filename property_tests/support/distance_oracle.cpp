@@ -29,7 +29,7 @@ double origin_to_segment(Vec2 a, Vec2 b) {
   return norm(a + way * part);
 }
 
-/// Least distance over the time that both legs last, which may be rounded away where it
+/// Least distance over the time that both legs last, which may be rounded away if it
 /// is a single instant.
 double least_together(const Leg& a, const Leg& b, double rounding_s) {
   const double begin_s = std::max(a.begin_s, b.begin_s);
@@ -75,7 +75,7 @@ BisectedSpan below(double low, double high, double into_rest_s, double reach, co
   const double near = reach - kTouchDepthCells;
   BisectedSpan span;
   span.deepest_s = least_at(low, high, reach / 2, function);
-  // The search ends just beside an end at which the function is least.
+  // The search ends close to an end at which the function is least.
   for (const double end_s : {low, high}) {
     if (function(end_s) < function(span.deepest_s)) span.deepest_s = end_s;
   }

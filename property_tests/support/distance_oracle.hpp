@@ -23,10 +23,10 @@ Leg leg_of(const Move& move, double departure_s);
 Leg leg_at(Vec2 place);
 
 /// Least distance of the two over the time that both legs last, both ends included, in
-/// cells; infinite where there is no such time. A convex function of a departure.
+/// cells; infinite if there is no such time. A convex function of a departure.
 double closest_approach(const Leg& a, const Leg& b);
 
-/// Distance of `place` and the disk's centre at a time; infinite where the disk is not
+/// Distance of `place` and the disk's centre at a time; infinite if the disk is not
 /// there at that time.
 double distance_at(Vec2 place, const MovingDisk& disk, double time_s);
 

@@ -8,7 +8,7 @@
 namespace sipplab {
 namespace {
 
-/// Cells along one side: mostly so few that ways cross, sometimes so many that ways are
+/// Cells along one side: mostly so few that paths cross, sometimes so many that paths are
 /// almost parallel.
 constexpr std::int32_t kNearSide = 6;
 constexpr std::int32_t kFarSide = 60;

@@ -1,4 +1,4 @@
-// Line of sight for a disk in whole numbers: every blocked cell against the way, one by
+// Line of sight for a disk in whole numbers: every blocked cell against the move, one by
 // one. Shares nothing with planner/grid but the map.
 #pragma once
 
@@ -18,7 +18,7 @@ struct Fraction {
 };
 
 /// Whether the open disk overlaps the open square of `blocked` somewhere on its straight
-/// way between two cell centres. Exact. REQUIRES: coordinates up to 1,000, radii of at
+/// move between two cell centres. Exact. REQUIRES: coordinates up to 1,000, radii of at
 /// most two digits; then no product leaves 64 bits.
 bool exactly_overlaps(Cell from, Cell to, Fraction radius, Cell blocked);
 

@@ -12,7 +12,7 @@
 namespace sipplab {
 namespace {
 
-/// Seconds by which unsafe spans shrink at contacts and grow where a motion ends, so that
+/// Seconds by which unsafe spans shrink at contacts and grow at the end of a motion, so that
 /// slots of zero width survive rounding and motions leave no gaps. Larger than any
 /// rounding, smaller than any true difference on the lattices of the tests.
 constexpr double kSlotS = 1e-8;
@@ -54,11 +54,11 @@ std::vector<Interval> safe_between(std::vector<OpenInterval> unsafe) {
 /// Cells. Less than a contact counts as apart.
 constexpr double kTouchCells = 1e-7;
 
-/// Cells. At the very edge of what is pardoned a way may be judged either way.
+/// Cells. At the very edge of what is pardoned a path may be judged either way.
 constexpr double kEdgeCells = 1e-6;
 
 /// Where along the endless line through both, in cells from `from`, it is within reach of a
-/// place. Empty where the way itself never is; REQUIRES: the way has a length.
+/// place. Empty if the move itself never is; REQUIRES: the move has a length.
 struct Within {
   double begin = 0;
   double end = 0;

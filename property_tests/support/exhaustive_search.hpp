@@ -1,4 +1,4 @@
-// Earliest arrival of one robot on a 2^k neighbourhood among disks with known ways: a
+// Earliest arrival of one robot on a 2^k neighbourhood among disks with known paths: a
 // slow search in which every time comes from bisection. Shares nothing with
 // planner/reservation and planner/search.
 #pragma once
@@ -43,8 +43,8 @@ struct Forbidden {
   Vec2 pardoned;
 };
 
-/// How far, in cells, the way leads on within reach of the place and out of reach of what
-/// is pardoned; negative where it does not come to that, by how far it misses.
+/// How far, in cells, the move leads on within reach of the place and out of reach of what
+/// is pardoned; negative if it does not come to that, by how far it misses.
 double intrusion_cells(const Forbidden& forbidden, Vec2 from, Vec2 to);
 
 /// How contacts count. Robots that give way to each other move by slacks of 1e-9 s, so
@@ -55,7 +55,7 @@ enum class Contacts {
 };
 
 /// When the robot can be at its goal for good, at the earliest, the turn to its goal heading
-/// done; nothing where it never can. Every heading of arrival is a label of its own. Exact to some 1e-8 s per
+/// done; nothing if it never can. Every heading of arrival is a label of its own. Exact to some 1e-8 s per
 /// move.
 std::optional<double> earliest_arrival_s(const GridMap& map, const std::vector<MovingDisk>& disks,
                                          const LoneRobot& robot, const std::vector<Forbidden>& forbidden = {},

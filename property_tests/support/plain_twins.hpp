@@ -21,7 +21,7 @@ struct PlainTable {
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s) const;
 };
 
-/// When SIPP by steps of the 2^k neighbourhood arrives, without rules of motion; nothing where it does not.
+/// When SIPP by steps of the 2^k neighbourhood arrives, without rules of motion; nothing if it does not.
 std::optional<double> plain_arrival_s(const GridMap& map, const PlainTable& table, const Agent& agent, int k);
 
 }  // namespace sipplab

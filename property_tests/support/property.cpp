@@ -162,7 +162,7 @@ void print_summary(const db::PropertyRun& record) {
             << record.reproduce << "\" property_" << record.room << '\n';
 }
 
-/// Appends the record to the log, where there is one. False where that fails.
+/// Appends the record to the log, if there is one. False if that fails.
 bool log(const db::PropertyRun& record) {
   const char* path = std::getenv("SIPPLAB_PROPERTY_LOG");
   if (path == nullptr || *path == '\0') return true;
@@ -214,8 +214,8 @@ bool run_property(const std::string& room, int cases, const std::string& title,
   if (!configuration.reproduce.empty()) return reproduce_failure(property, reproduce->second);
 
   db::PropertyRun record;
-  record.uuid = new_property_uuid();
-  record.started_utc = utc_text(std::chrono::system_clock::now());
+  record.uuid = db::new_uuid();
+  record.started_utc = db::utc_now();
   record.room = room;
   record.title = title;
   record.seed = configuration.testParams.seed;

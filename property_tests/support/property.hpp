@@ -18,7 +18,7 @@
 namespace sipplab {
 
 /// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
-/// `cases` are tried where RC_PARAMS names no number.
+/// `cases` are tried if RC_PARAMS names no number.
 bool run_property(const std::string& room, int cases, const std::string& title,
                   const rc::detail::Property& property);
 
@@ -38,7 +38,7 @@ bool property(const std::string& title, Testable&& testable) {
                       rc::detail::toProperty(std::forward<Testable>(testable)));
 }
 
-/// Says which case this property plans, where that is not the case that it drew: the
+/// Says which case this property plans, if that is not the case that it drew: the
 /// log then holds this one.
 void note_case(const PlanCase& plan_case);
 

@@ -4,40 +4,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <nlohmann/json.hpp>
-#include <random>
 
 namespace sipplab {
-
-std::string utc_text(std::chrono::system_clock::time_point time) {
-  using std::chrono::milliseconds;
-  const auto since_epoch = std::chrono::duration_cast<milliseconds>(time.time_since_epoch());
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
-  std::tm utc = {};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 32> date = {};
-  std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%S", &utc);
-  std::array<char, 16> fraction = {};
-  std::snprintf(fraction.data(), fraction.size(), ".%03dZ", static_cast<int>(since_epoch.count() % 1000));
-  return std::string(date.data()) + fraction.data();
-}
-
-std::string new_property_uuid() {
-  constexpr const char* kPattern = "xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx";
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::random_device random;
-  std::string uuid = kPattern;
-  for (char& c : uuid) {
-    if (c == 'x') c = kDigits[random() % 16];
-    if (c == 'y') c = kDigits[8 + random() % 4];  // the variant of RFC 4122
-  }
-  return uuid;
-}
 
 namespace {
 

@@ -2,19 +2,13 @@
 // each line. Programs that run at once may append to one file.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
 
 #include "db/property_run.hpp"
+#include "db/run_names.hpp"
 
 namespace sipplab {
-
-/// "2026-01-31T12:00:00.123Z".
-std::string utc_text(std::chrono::system_clock::time_point time);
-
-/// A random UUID (version 4).
-std::string new_property_uuid();
 
 /// One line, with its line break.
 std::string to_json_line(const db::PropertyRun& run);

@@ -11,7 +11,7 @@
 namespace sipplab {
 namespace {
 
-/// In memory where the system has a place for that: a database that is made a thousand
+/// In memory if the system has a place for that: a database that is made a thousand
 /// times waits for the disk and for nothing else.
 std::filesystem::path parent_folder() {
   constexpr const char* kInMemory = "/dev/shm";

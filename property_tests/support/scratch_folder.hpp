@@ -1,12 +1,12 @@
-// A folder for files that nobody needs afterwards.
+// A folder for temporary files.
 #pragma once
 
 #include <filesystem>
 
 namespace sipplab {
 
-/// Made in $TMPDIR if set, else in memory where the system offers that, else among its
-/// temporary files; removed with all that is in it. Ends the program where no folder can
+/// Made in $TMPDIR if set, else in memory if the system offers that, else among its
+/// temporary files; removed with all that is in it. Ends the program if no folder can
 /// be made.
 class ScratchFolder {
  public:

@@ -8,7 +8,7 @@
 namespace sipplab {
 
 /// Moves between 4-neighbours from one cell to another, by breadth-first search; none
-/// where no way leads there. REQUIRES: both cells are free.
+/// if no path leads there. REQUIRES: both cells are free.
 std::optional<int> steps_between(const GridMap& map, Cell from, Cell to);
 
 }  // namespace sipplab

@@ -71,7 +71,7 @@ class Reducer {
     return true;
   }
 
-  /// False where the text is no case, or breaks only as it is written.
+  /// False if the text is no case, or breaks only as it is written.
   bool reduce_as_case() {
     std::optional<PlanCase> plan_case = decode_case(best_.text);
     if (!plan_case || find_error(plan_case->instance)) return false;

@@ -48,7 +48,7 @@ TEST(ClosestApproach, IsWhatSamplesApproach) {
 }
 
 TEST(BisectDepartures, FindsWhenACrossingIsFree) {
-  // Two unit disks whose ways cross at right angles: unsafe while they are less than
+  // Two unit disks whose paths cross at right angles: unsafe while they are less than
   // sqrt 2 seconds apart in the middle.
   const Move move(Displacement({0, -5}, {0, 5}), 1);
   const MovingDisk disk = MovingDisk::moving(Displacement({-5, 0}, {5, 0}), 10, 20, 0.5);

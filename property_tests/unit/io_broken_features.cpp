@@ -49,7 +49,7 @@ std::string broken(const Break& change) {
   return text.replace(at, std::string(change.from).size(), change.to);
 }
 
-/// The one line that a user sees; empty where all is well.
+/// The one line that a user sees; empty if all is well.
 std::string complaint(const std::string& text) {
   const Input<InstanceParts> parts = parse_xml_instance(text, "f");
   if (!parts) return parts.error().message();

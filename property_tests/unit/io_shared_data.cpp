@@ -1,4 +1,4 @@
-// The published instances beside the project, where they are present.
+// The published instances next to the project, if they are present.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// $SIPPLAB_SHARED, or the folder "shared" beside the project's own.
+/// $SIPPLAB_SHARED, or the folder "shared" next to the project.
 fs::path shared_folder() {
   const char* const named = std::getenv("SIPPLAB_SHARED");
   return named ? fs::path(named) : fs::path(SIPPLAB_SOURCE_DIR) / ".." / "shared";

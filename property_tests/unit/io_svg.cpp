@@ -1,4 +1,4 @@
-// The picture of a solution: well-formed, complete, and bounded where much is to be drawn.
+// The picture of a solution: well-formed, complete, and bounded however much is drawn.
 #include "planner/io/svg.hpp"
 
 #include <gtest/gtest.h>
@@ -142,7 +142,7 @@ TEST(IoSvg, TenThousandRobotsStaySmall) {
   }
   const std::string svg = draw_svg(instance, straight_solution(instance), {}, {});
   EXPECT_LT(svg.size(), 10'000u * 500u);
-  EXPECT_EQ(count(svg, "text-anchor"), 0u) << "no ids where nobody could read them";
+  EXPECT_EQ(count(svg, "text-anchor"), 0u) << "no ids that are too small to read";
 }
 
 }  // namespace

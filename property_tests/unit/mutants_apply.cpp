@@ -1,5 +1,5 @@
 // The planted bugs of mutants/ still fit the sources: the text that each replaces is
-// there exactly once. A table that rots would claim kills that nobody has seen.
+// there exactly once. A stale table would claim kills that never happened.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -19,13 +19,13 @@ namespace {
 /// Robots that meet between shelves: some fail in the first try, and improvement finds something.
 const Instance& crowd() {
   static const Instance instance = [] {
-    GeneratorOptions who;
-    who.agents = 24;
+    GeneratorOptions wanted;
+    wanted.agents = 24;
     GridMap map(14, 10);
     for (const std::int32_t y : {2, 3, 6, 7}) {
       for (std::int32_t x = 2; x < 12; ++x) map.set_blocked({x, y}, x != 6);
     }
-    return generate_instance(map, who).value();
+    return generate_instance(map, wanted).value();
   }();
   return instance;
 }

@@ -75,19 +75,19 @@ TEST(TurningSearch, AStraightDetourCanBeQuickerThanTurning) {
 TEST(TurningSearch, EndsWhereNoUsefulArrivalIsLeft) {
   const PlanCase plan_case = turning_case("......\n......\n......\nrobot 0 0 to 5 2\nany-angle no\n");
   const auto search = single_agent_planner(plan_case.instance, plan_case.options);
-  ReservationTable nobody(plan_case.instance.map, 0.5);
+  ReservationTable empty(plan_case.instance.map, 0.5);
   SearchLimits limits;
   SearchStatistics useful;
   limits.latest_arrival_s = 8;  // seven cells and a quarter turn
-  EXPECT_TRUE(search->plan(0, nobody, limits, useful));
+  EXPECT_TRUE(search->plan(0, empty, limits, useful));
   SearchStatistics useless;
   limits.latest_arrival_s = 6;
-  EXPECT_FALSE(search->plan(0, nobody, limits, useless));
+  EXPECT_FALSE(search->plan(0, empty, limits, useless));
   EXPECT_EQ(useless.expansions, 0U);
 }
 
 TEST(TurningSearch, AnEarlierArrivalWithAnotherHeadingDoesNotDominate) {
-  // Two ways lead to (2, 2). By the one over the top the robot is there after 8 s, but
+  // Two paths lead to (2, 2). By the one over the top the robot is there after 8 s, but
   // faces down and has 2 s to turn. By the other one it waits 3 s for the obstacle to
   // leave, is there after 9 s, and can go straight on.
   PlanCase plan_case = turning_case(

@@ -58,7 +58,7 @@ class Traffic {
 };
 
 TEST(ValidatorSeparation, AcceptsTouchingAllTheWay) {
-  // A queue that moves on in contact, a robot beside it, one that waits beside them.
+  // A queue that moves on in contact, a robot next to it, and one that waits next to them.
   Traffic traffic;
   traffic.robot({{1, 1}, {9, 1}}).robot({{2, 1}, {10, 1}}).robot({{3, 1}, {11, 1}});
   traffic.robot({{1, 2}, {9, 2}}).robot({{5, 3}});

@@ -81,7 +81,7 @@ TEST(ValidatorSpacing, TimeIsKeptBeforeAndAfter) {
   ASSERT_EQ(report.violations.size(), 1u);
   EXPECT_EQ(report.violations[0].kind, ViolationKind::kSpacing);
   EXPECT_GT(report.violations[0].depth_cells, 0.1);
-  // Whoever comes first, the rule is the same.
+  // The rule is the same for either order.
   std::swap(scene.instance.agents[0], scene.instance.agents[1]);
   std::swap(scene.solution.trajectories[0], scene.solution.trajectories[1]);
   ASSERT_EQ(scene.report().violations.size(), 1u);

@@ -160,7 +160,7 @@ TEST(ValidatorTrajectory, SeesAJumpHoweverLateItIs) {
 }
 
 TEST(ValidatorTrajectory, MeasuresSweptBodiesAgainstCorners) {
-  // The way from (1, 1) to (3, 2) passes the upper right corner of cell (1, 2).
+  // The move from (1, 1) to (3, 2) passes the upper right corner of cell (1, 2).
   OneRobot scene;
   scene.instance.map.set_blocked({1, 2}, true);
   scene.instance.agents[0].start = {1, 1};

@@ -14,7 +14,7 @@
 namespace sipplab {
 namespace {
 
-/// Robots on a map that is large enough for nodes far off the straight way.
+/// Robots on a map that is large enough for nodes far off the straight move.
 Instance roomy_instance() {
   GeneratorOptions options;
   options.agents = 128;
@@ -54,7 +54,7 @@ TEST(WeightedSearch, PullingTightWinsBackAQuarterOfWhatAWeightCosts) {
   EXPECT_LT(flowtime(1.2, true) - best_s, 0.75 * (flowtime(1.2, false) - best_s));
 }
 
-/// Robots in the aisles of a warehouse, whose ways bend around shelves.
+/// Robots in the aisles of a warehouse, whose paths turn around shelves.
 Instance warehouse_instance() {
   GeneratorOptions options;
   options.agents = 32;

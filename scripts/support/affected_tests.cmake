@@ -4,7 +4,7 @@
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} --show-only=json-v1
                 OUTPUT_VARIABLE json COMMAND_ERROR_IS_FATAL ANY)
 
-# What a word of a test's command stands for: a program, a folder of data, a script and what lies beside it.
+# What a word of a test's command stands for: a program, a folder of data, a script and the files next to it.
 function(files_of word result)
   set(files "")
   if(IS_DIRECTORY "${word}")
