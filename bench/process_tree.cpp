@@ -23,7 +23,8 @@ struct Process {
   std::uint64_t pages = 0;
 };
 
-/// proc(5): "pid (name) state ppid pgrp ...", resident pages as field 24. The name may hold blanks and brackets.
+/// proc(5): "pid (name) state ppid pgrp ...", resident pages as field 24. The name may hold blanks and
+/// brackets.
 bool read_process(const std::string& id, Process& process) {
   std::ifstream file("/proc/" + id + "/stat");
   std::string line;

@@ -7,9 +7,9 @@
 
 namespace sipplab::bench {
 
-/// Bytes that `program`, the processes of its group and the descendants of all of them hold in memory now. Address
-/// space that nobody has touched does not count. Up to `limit_bytes` it may be too much, since pages that several
-/// processes share count for each; beyond, such a page counts once.
+/// Bytes that `program`, the processes of its group and the descendants of all of them hold in memory now.
+/// Address space that nobody has touched does not count. Up to `limit_bytes` it may be too much, since pages
+/// that several processes share count for each; beyond, such a page counts once.
 std::uint64_t resident_bytes(pid_t program, std::uint64_t limit_bytes);
 
 }  // namespace sipplab::bench

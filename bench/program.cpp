@@ -45,8 +45,8 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 constexpr std::chrono::milliseconds kGiveUpInterval{100};
 /// Where the system gives no descriptor of a process to wait for.
 constexpr std::chrono::milliseconds kPollInterval{2};
-/// Bytes a second: what programs of some threads touch on machines of today. Memory is looked at when it could
-/// be at its limit by that, and no more often than this: a look takes a millisecond or two.
+/// Bytes a second: what programs of some threads touch on machines of today. Memory is looked at when it
+/// could be at its limit by that, and no more often than this: a look takes a millisecond or two.
 constexpr double kFastestGrowth = 8.0 * (std::uint64_t{1} << 30);
 constexpr std::chrono::milliseconds kMemoryInterval{5};
 constexpr std::size_t kMostOutputBytes = std::size_t{64} << 20;
@@ -78,8 +78,8 @@ class MemoryWatch {
     const std::uint64_t held = resident_bytes(program_, limit_bytes_);
     if (held > limit_bytes_) return held;
     const std::chrono::duration<double> soonest(static_cast<double>(limit_bytes_ - held) / kFastestGrowth);
-    next_ = Clock::now() + std::max<Clock::duration>(std::chrono::duration_cast<Clock::duration>(soonest),
-                                                     kMemoryInterval);
+    next_ = Clock::now() +
+            std::max<Clock::duration>(std::chrono::duration_cast<Clock::duration>(soonest), kMemoryInterval);
     return 0;
   }
   std::chrono::duration<double, std::milli> time_left() const {

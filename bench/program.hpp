@@ -30,8 +30,8 @@ struct ProgramRun {
   bool timed_out = false;
   bool given_up = false;
   std::uint64_t memory_seen_bytes = 0;  ///< beyond the limit, where that is why it was killed; else 0
-  int exit_code = -1;  ///< -1 after a signal
-  int signal = 0;      ///< that ended it
+  int exit_code = -1;                   ///< -1 after a signal
+  int signal = 0;                       ///< that ended it
   double wall_time_s = 0;
   double cpu_time_s = 0;
   /// Of the largest among it and the processes that it waited for, but no less than what

@@ -159,8 +159,12 @@ Result<Cells> newest_cells(Database& database, const ComparisonSide& side) {
   for (const std::int64_t run : side.run_ids) {
     select.bind(run);
     SIPPLAB_TRY(select.for_each([&] {
-      cells[select.integer(kCaseColumn)] = {select.integer(0), select.text(1), select.text(2), select.text(3),
-                                            read_case(select, kCaseColumn), {}};
+      cells[select.integer(kCaseColumn)] = {select.integer(0),
+                                            select.text(1),
+                                            select.text(2),
+                                            select.text(3),
+                                            read_case(select, kCaseColumn),
+                                            {}};
     }));
     select.reset();
   }
@@ -187,8 +191,8 @@ using CellPairs = std::vector<std::pair<const CellKey*, const CellKey*>>;
 
 /// Takes those of both sides out that have just one partner there.
 template <class AreAlike>
-void pair_unique(std::vector<const CellKey*>& base, std::vector<const CellKey*>& head, const AreAlike& are_alike,
-                 CellPairs& pairs) {
+void pair_unique(std::vector<const CellKey*>& base, std::vector<const CellKey*>& head,
+                 const AreAlike& are_alike, CellPairs& pairs) {
   const auto only = [](const std::vector<const CellKey*>& cells, const auto& is_partner) {
     const auto found = std::find_if(cells.begin(), cells.end(), is_partner);
     const bool is_only = found != cells.end() && std::none_of(found + 1, cells.end(), is_partner);
@@ -266,15 +270,16 @@ Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head
   auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       // Positions may differ between folders; of equal files in one folder the first goes with the first.
-      fmt::format("WITH numbered AS (SELECT *, row_number() OVER (PARTITION BY cell_id, instance_id, repetition "
-                  "  ORDER BY position) AS occurrence FROM result WHERE cell_id IN (?1, ?2)) "
-                  "SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
-                  "FROM numbered AS base JOIN numbered AS head ON head.cell_id = ?2 "
-                  "  AND head.instance_id = base.instance_id AND head.occurrence = base.occurrence "
-                  "  AND head.repetition = base.repetition "
-                  "JOIN instance ON instance.id = base.instance_id "
-                  "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
-                  fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
+      fmt::format(
+          "WITH numbered AS (SELECT *, row_number() OVER (PARTITION BY cell_id, instance_id, repetition "
+          "  ORDER BY position) AS occurrence FROM result WHERE cell_id IN (?1, ?2)) "
+          "SELECT instance.name, instance.content_hash, base.position, base.repetition, {}, {} "
+          "FROM numbered AS base JOIN numbered AS head ON head.cell_id = ?2 "
+          "  AND head.instance_id = base.instance_id AND head.occurrence = base.occurrence "
+          "  AND head.repetition = base.repetition "
+          "JOIN instance ON instance.id = base.instance_id "
+          "WHERE base.cell_id = ?1 ORDER BY base.position, base.repetition",
+          fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
       kReadingRuns, base, head));
   constexpr int kBaseColumn = 4;
   constexpr int kHeadColumn = 14;

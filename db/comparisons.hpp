@@ -51,9 +51,9 @@ struct PairedCell {
 };
 
 /// The cases that both sides have finished, in order of environment, options and robots; the
-/// results of each in order of position and repetition. A case that only one side has is paired with the only one of
-/// the other side that has the same columns but for the planner; else with the only one that has some of its
-/// instances and the same rules of motion. So planners are compared, and settings.
+/// results of each in order of position and repetition. A case that only one side has is paired with the only
+/// one of the other side that has the same columns but for the planner; else with the only one that has some
+/// of its instances and the same rules of motion. So planners are compared, and settings.
 Result<std::vector<PairedCell>> paired_cells(Database& database, const ComparisonSide& base,
                                              const ComparisonSide& head);
 

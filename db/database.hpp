@@ -36,8 +36,8 @@ class Database {
   static int latest_schema_version();
 
  private:
-  /// SQLite makes a log even to read, and only a connection that may write takes it away again, as the last one
-  /// that closes. Does so when it is destroyed, where the log is empty.
+  /// SQLite makes a log even to read, and only a connection that may write takes it away again, as the last
+  /// one that closes. Does so when it is destroyed, where the log is empty.
   class LogSweeper {
    public:
     explicit LogSweeper(std::filesystem::path path) : path_(std::move(path)) {}

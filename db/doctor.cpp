@@ -159,7 +159,8 @@ class Examination {
 
   Result<Done> planners() {
     const auto rows = texts(
-        "WITH command AS (SELECT DISTINCT case_.planner, substr(run.options, instr(run.options, ' planner='), "
+        "WITH command AS (SELECT DISTINCT case_.planner, substr(run.options, instr(run.options, ' "
+        "planner='), "
         "    instr(run.options, ' memory_limit=') - instr(run.options, ' planner=')) AS digest "
         "  FROM run JOIN cell ON cell.run_id = run.id JOIN case_ ON case_.id = cell.case_id "
         "  WHERE run.excluded_reason IS NULL AND run.options LIKE '% planner=%') "
@@ -167,7 +168,9 @@ class Examination {
         "GROUP BY planner HAVING count(*) > 1");
     if (!rows) return Unexpected{rows.error()};
     for (const std::string& row : *rows) {
-      add(row, "exclude the runs of all but one (sipplab runs --exclude), or record them again with --planner-name");
+      add(row,
+          "exclude the runs of all but one (sipplab runs --exclude), or record them again with "
+          "--planner-name");
     }
     return Done{};
   }

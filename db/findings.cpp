@@ -114,7 +114,8 @@ Result<StoredFinding> record_finding(Database& database, const RunOrigin& origin
 Result<StoredFinding> record_minimal(Database& database, std::int64_t id, const Finding& finding) {
   const auto stored = find_finding(database, id);
   if (!stored) return stored;
-  if (auto done = keep_smaller(database.connection(), *stored, finding); !done) return Unexpected{done.error()};
+  if (auto done = keep_smaller(database.connection(), *stored, finding); !done)
+    return Unexpected{done.error()};
   return find_finding(database, id);
 }
 

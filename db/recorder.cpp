@@ -34,15 +34,15 @@ bool has_nan(const ResultRow& row) {
 
 Result<std::optional<std::string>> find_other_command(Database& database, const std::string& planner,
                                                       const std::string& digest) {
-  auto select = Statement::prepare(
-      database.connection(),
-      "SELECT uuid FROM run WHERE kind = 'sweep' AND excluded_reason IS NULL "
-      "  AND options LIKE '% planner=%' AND instr(options, ' planner=' || ?2 || ' ') = 0 "
-      "  AND EXISTS (SELECT 1 FROM cell JOIN case_ ON case_.id = cell.case_id "
-      "              WHERE cell.run_id = run.id "
-      "                AND (case_.planner = ?1 OR case_.planner GLOB ?1 || ' [a-z]*:*')) "
-      "ORDER BY started_utc DESC, id DESC LIMIT 1",
-      "looking for runs of another command");
+  auto select =
+      Statement::prepare(database.connection(),
+                         "SELECT uuid FROM run WHERE kind = 'sweep' AND excluded_reason IS NULL "
+                         "  AND options LIKE '% planner=%' AND instr(options, ' planner=' || ?2 || ' ') = 0 "
+                         "  AND EXISTS (SELECT 1 FROM cell JOIN case_ ON case_.id = cell.case_id "
+                         "              WHERE cell.run_id = run.id "
+                         "                AND (case_.planner = ?1 OR case_.planner GLOB ?1 || ' [a-z]*:*')) "
+                         "ORDER BY started_utc DESC, id DESC LIMIT 1",
+                         "looking for runs of another command");
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(planner, digest).step();
   if (!row) return Unexpected{row.error()};

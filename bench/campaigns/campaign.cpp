@@ -43,8 +43,8 @@ constexpr double kGraceS = 120;
 constexpr double kLongestS = 86'400;
 /// Part of a budget of time that is left for making findings smaller.
 constexpr double kReduceShare = 0.1;
-/// Seconds that one reduction gets at most: thousands of judgements at a few milliseconds, or some that hang; and
-/// what it needs to come to anything.
+/// Seconds that one reduction gets at most: thousands of judgements at a few milliseconds, or some that hang;
+/// and what it needs to come to anything.
 constexpr double kReduceLimitS = 120;
 constexpr double kLeastReduceS = 1;
 /// Characters of an input that a log shows.
@@ -102,7 +102,8 @@ class TargetRun {
     judge(inputs);
   }
 
-  /// Writes what run() did, and what it found as it was found. A run that the user ended without findings is none.
+  /// Writes what run() did, and what it found as it was found. A run that the user ended without findings is
+  /// none.
   db::Result<std::vector<OpenFinding>> record() {
     if (interrupted_by() != 0 && found_.empty()) return std::vector<OpenFinding>();
     const auto id = SIPPLAB_TRY(db::record_fuzz_run(database_, origin_, run_));
@@ -298,9 +299,9 @@ void write_finding(const CampaignOptions& options, const OpenFinding& open, cons
   tell(fmt::format("finding {}: {} bytes, of {}{}", stored.id, stored.finding.minimal.size(),
                    stored.finding.input.size(), is_written ? ", in " + file.string() : std::string()));
   const std::string words = printf_words(stored.finding.minimal);
-  tell(words.size() > kMostShown
-           ? fmt::format("  again: scripts/fuzz --reproduce {}", stored.id)
-           : fmt::format("  again: printf '{}' >input && {} --judge input", words, open.program->replayer().string()));
+  tell(words.size() > kMostShown ? fmt::format("  again: scripts/fuzz --reproduce {}", stored.id)
+                                 : fmt::format("  again: printf '{}' >input && {} --judge input", words,
+                                               open.program->replayer().string()));
   const auto picture = draw_finding(stored.finding);
   const fs::path drawn = folder / fmt::format("{}.svg", stored.id);
   if (picture && !write_file(drawn.string(), *picture)) tell(fmt::format("  {}", drawn.string()));
@@ -320,8 +321,9 @@ bool tell_run(const TargetRun& run, const Teller& tell) {
 }
 
 /// Makes findings smaller, each for its share of what is left of the time, and writes them.
-db::Result<db::Done> finish(db::Database& database, const CampaignOptions& options, std::vector<OpenFinding>& open,
-                            const Clock::time_point& deadline, const Teller& tell) {
+db::Result<db::Done> finish(db::Database& database, const CampaignOptions& options,
+                            std::vector<OpenFinding>& open, const Clock::time_point& deadline,
+                            const Teller& tell) {
   for (std::size_t i = 0; i < open.size(); ++i) {
     db::StoredFinding& stored = open[i].stored;
     const double left_s = std::chrono::duration<double>(deadline - Clock::now()).count();
@@ -373,7 +375,8 @@ db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOri
   const std::size_t at_a_time = std::max<std::size_t>(1, std::min(most, runs.size()));
   const std::size_t turns = (runs.size() + at_a_time - 1) / at_a_time;
   std::optional<double> share;
-  if (options.seconds) share = *options.seconds * (1 - kReduceShare) / static_cast<double>(std::max<std::size_t>(1, turns));
+  if (options.seconds)
+    share = *options.seconds * (1 - kReduceShare) / static_cast<double>(std::max<std::size_t>(1, turns));
   const Clock::time_point deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(options.seconds.value_or(kLongestS)));

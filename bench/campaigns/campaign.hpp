@@ -38,11 +38,10 @@ struct CampaignResult {
 /// The targets below sources/corpus for which there is a program.
 std::vector<std::string> targets_of(const CampaignOptions& options);
 
-/// Runs all targets; rows are written after each, findings among them. Afterwards findings are made smaller, within
-/// the same budget of seconds. An interrupt ends engines and reductions; what was found by then is written. `tell`
-/// gets one line at a time, for a person, never two at once.
+/// Runs all targets; rows are written after each, findings among them. Afterwards findings are made smaller,
+/// within the same budget of seconds. An interrupt ends engines and reductions; what was found by then is
+/// written. `tell` gets one line at a time, for a person, never two at once.
 db::Result<CampaignResult> run_campaign(db::Database& database, const db::RunOrigin& origin,
-                                        const CampaignOptions& options,
-                                        const Teller& tell);
+                                        const CampaignOptions& options, const Teller& tell);
 
 }  // namespace sipplab::bench

@@ -131,7 +131,8 @@ db::Finding finding_of(const std::string& target, const InputVerdict& verdict, c
   return finding;
 }
 
-db::Finding reduced(const TargetProgram& program, const db::Finding& finding, double limit_s, const Teller& tell) {
+db::Finding reduced(const TargetProgram& program, const db::Finding& finding, double limit_s,
+                    const Teller& tell) {
   const std::string minimal = program.reduce(finding.minimal, limit_s, tell);
   db::Finding smaller = finding;
   // Reducing goes by addresses; what counts is what the smallest one is judged to be.

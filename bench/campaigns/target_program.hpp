@@ -41,8 +41,8 @@ class TargetProgram {
   std::filesystem::path replayer() const { return programs_ / ("replay_" + target_); }
 
   InputVerdict judge(const std::string& input) const;
-  /// The smallest input that breaks the same and was found within some seconds, or before the user wanted to end;
-  /// the input itself where there is none. `tell` hears of it meanwhile.
+  /// The smallest input that breaks the same and was found within some seconds, or before the user wanted to
+  /// end; the input itself where there is none. `tell` hears of it meanwhile.
   std::string reduce(const std::string& input, double limit_s, const Teller& tell) const;
 
  private:
@@ -55,7 +55,8 @@ class TargetProgram {
 db::Finding finding_of(const std::string& target, const InputVerdict& verdict, const std::string& input);
 
 /// The same with a smaller input, as TargetProgram::reduce finds one.
-db::Finding reduced(const TargetProgram& program, const db::Finding& finding, double limit_s, const Teller& tell);
+db::Finding reduced(const TargetProgram& program, const db::Finding& finding, double limit_s,
+                    const Teller& tell);
 
 /// The picture of a finding that is a planning case, with its plan where planning it ends
 /// well; nothing for other inputs. Drawn in a child: the case is one that breaks things.

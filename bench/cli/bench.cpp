@@ -162,9 +162,10 @@ std::optional<std::string> find_taken_name(db::Database& database, const BenchAr
   const auto other = db::find_other_command(database, name, bench::text_digest(command->command));
   if (!other) return other.error().message;
   if (!*other) return std::nullopt;
-  return fmt::format("{}: {} is another command in run {} (`sipplab show` tells which), expected "
-                     "--planner-name with a name for this one",
-                     database.path().string(), name, (*other)->substr(0, kShortUuid));
+  return fmt::format(
+      "{}: {} is another command in run {} (`sipplab show` tells which), expected "
+      "--planner-name with a name for this one",
+      database.path().string(), name, (*other)->substr(0, kShortUuid));
 }
 
 /// What files were left out, and the like.
@@ -281,7 +282,8 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
           ->excludes(suite)
           ->type_name("DIR");
-  command.add_flag("--strict", arguments.strict, "refuse files of such a folder that are no instances, or equal")
+  command
+      .add_flag("--strict", arguments.strict, "refuse files of such a folder that are no instances, or equal")
       ->needs(folders);
   add_values(command, "--radius", arguments.radii, "cells; of robots in MovingAI files and of the suite");
   add_values(command, "--speed", arguments.speeds, "cells per second; likewise");
@@ -305,7 +307,9 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
                   "its name in the history instead of its program's")
       ->needs(planner)
       ->type_name("NAME");
-  command.add_option("--memory-limit", arguments.memory_limit_mib, "MiB that the program may hold in memory, with all it starts")
+  command
+      .add_option("--memory-limit", arguments.memory_limit_mib,
+                  "MiB that the program may hold in memory, with all it starts")
       ->needs(planner)
       ->check(CLI::Range(std::uint64_t{16}, std::uint64_t{1} << 30))
       ->capture_default_str();

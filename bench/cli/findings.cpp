@@ -42,8 +42,8 @@ struct FindingsArguments {
 };
 
 db::Table table_of(const std::vector<db::StoredFinding>& findings) {
-  db::Table table{{"id", "state", "target", "kind", "claim", "where", "same_place", "robots", "cells", "bytes",
-                   "times_found", "last_utc"},
+  db::Table table{{"id", "state", "target", "kind", "claim", "where", "same_place", "robots", "cells",
+                   "bytes", "times_found", "last_utc"},
                   {}};
   // One cause breaks several targets, and one target by several ways: where it broke is the same.
   std::map<std::string, std::int64_t> first_at;
@@ -168,7 +168,8 @@ db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding&
       SIPPLAB_TRY(db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now()));
   if (!breaks) return Replayed{recorded, "holds by now"};
   const bool is_same = verdict.signature() == stored.finding.signature();
-  return Replayed{recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message, verdict.report};
+  return Replayed{recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message,
+                  verdict.report};
 }
 
 int run_replay(const FindingsArguments& arguments) {

@@ -143,12 +143,14 @@ CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
       ->check(CLI::IsMember({"smoke", "for", "nightly"}))
       ->capture_default_str();
   run->add_option("--target", campaign.targets, "only these targets");
-  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets and by what they find")->check(check_positive_real);
+  run->add_option("--seconds", campaign.seconds, "budget, shared by all targets and by what they find")
+      ->check(check_positive_real);
   run->add_option("--executions", campaign.executions, "budget of each target")->check(CLI::PositiveNumber);
   run->add_option("--seed", campaign.seed, "of the engine")
       ->check(CLI::Range(1U, 4294967295U))
       ->capture_default_str();
-  run->add_option("--workers", campaign.workers, "processes at a time: of one target in a nightly run, else of so many targets")
+  run->add_option("--workers", campaign.workers,
+                  "processes at a time: of one target in a nightly run, else of so many targets")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   run->add_flag("--skip-known", campaign.skip_known,

@@ -76,7 +76,8 @@ std::string lost_in_movingai(const GenerateArguments& arguments) {
   // One value for all is given back with --radius and --speed when the files are read.
   const auto differ = [](const std::vector<std::string>& values) {
     const std::vector<double> numbers = numbers_of(values);
-    return std::any_of(numbers.begin(), numbers.end(), [&](double number) { return number != numbers.front(); });
+    return std::any_of(numbers.begin(), numbers.end(),
+                       [&](double number) { return number != numbers.front(); });
   };
   if (differ(arguments.radii)) return "several radii";
   if (differ(arguments.speeds)) return "several speeds";

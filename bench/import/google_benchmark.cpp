@@ -63,8 +63,8 @@ bool contains(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A bare word or number of the report that stands for no number: NaN, Infinity, -inf, -nan(ind), 1.#INF; and the
-/// 12% of a fit's error, which versions before 1.1 write.
+/// A bare word or number of the report that stands for no number: NaN, Infinity, -inf, -nan(ind), 1.#INF; and
+/// the 12% of a fit's error, which versions before 1.1 write.
 bool is_no_number(std::string_view word) {
   if (word.find(".#") != std::string_view::npos || word.ends_with('%')) return true;
   if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
@@ -343,7 +343,8 @@ Expected<db::MeasurementRun, std::string> read_google_benchmark(const std::strin
   } catch (const Json::exception& error) {
     return Unexpected{fmt::format("{}:1: {}", path, error.what())};
   }
-  if (run.measurements.empty()) return Unexpected{path + ":1: no repetition, median or mean of a benchmark, expected at least one"};
+  if (run.measurements.empty())
+    return Unexpected{path + ":1: no repetition, median or mean of a benchmark, expected at least one"};
   if (commit) {
     run.info.commit.emplace();
     run.info.commit->hash = *commit;

@@ -138,11 +138,12 @@ struct Starter {
   std::size_t words;
 };
 constexpr Starter kStarters[] = {
-    {"env", " -u -C ", 0},     {"nice", " -n ", 0},      {"ionice", " -c -n ", 0}, {"timeout", " -s -k ", 1},
-    {"time", " -f -o ", 0},    {"nohup", "", 0},         {"setsid", "", 0},        {"stdbuf", " -i -o -e ", 0},
-    {"taskset", "", 1},        {"chrt", "", 1},          {"exec", " -a ", 0},      {"numactl", " -N -m ", 0}};
+    {"env", " -u -C ", 0},  {"nice", " -n ", 0}, {"ionice", " -c -n ", 0}, {"timeout", " -s -k ", 1},
+    {"time", " -f -o ", 0}, {"nohup", "", 0},    {"setsid", "", 0},        {"stdbuf", " -i -o -e ", 0},
+    {"taskset", "", 1},     {"chrt", "", 1},     {"exec", " -a ", 0},      {"numactl", " -N -m ", 0}};
 /// What runs a script; versions are digits behind the name.
-constexpr std::string_view kInterpreters = " sh bash dash ksh zsh python pypy perl ruby node lua julia Rscript java php ";
+constexpr std::string_view kInterpreters =
+    " sh bash dash ksh zsh python pypy perl ruby node lua julia Rscript java php ";
 /// Before the program, up to && or a semicolon.
 constexpr std::string_view kSettings = " cd export ulimit umask set ";
 
@@ -198,8 +199,8 @@ std::string name_of(const std::string& command) {
   return script ? base_name(*script) : program;
 }
 
-/// The command with absolute paths for words that name files from here, such as ./planner or script.py, and for
-/// the folder of a `cd`: it runs in a folder of its own.
+/// The command with absolute paths for words that name files from here, such as ./planner or script.py, and
+/// for the folder of a `cd`: it runs in a folder of its own.
 std::string with_absolute_paths(const std::string& command) {
   std::string absolute;
   std::string_view rest = command;
@@ -212,8 +213,8 @@ std::string with_absolute_paths(const std::string& command) {
     const bool is_file = is_plain_path(word) && path.is_relative() && fs::is_regular_file(path, ignored);
     const bool is_folder = before == "cd" && path.is_relative() && fs::is_directory(path, ignored);
     before = word;
-    absolute +=
-        is_file || is_folder ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string()) : std::string(word);
+    absolute += is_file || is_folder ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string())
+                                     : std::string(word);
     if (end < rest.size()) absolute += rest[end];
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -382,14 +383,15 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
   if (std::string error = write_files(folder, instance, options); !error.empty()) {
     return Unexpected{std::move(error)};
   }
-  const ProgramRun run = run_program({std::string(kShell), "-c", shell_line(spec_, folder, instance, options)},
-                                     {.log = log,
-                                      .limit_s = limit_of(options) + kGraceS,
-                                      .folder = folder,
-                                      .all_to_log = true,
-                                      .own_group = true,
-                                      .give_up = [] { return interrupted_by() != 0; },
-                                      .memory_limit_bytes = spec_.memory_limit_mib * kBytesPerMib});
+  const ProgramRun run =
+      run_program({std::string(kShell), "-c", shell_line(spec_, folder, instance, options)},
+                  {.log = log,
+                   .limit_s = limit_of(options) + kGraceS,
+                   .folder = folder,
+                   .all_to_log = true,
+                   .own_group = true,
+                   .give_up = [] { return interrupted_by() != 0; },
+                   .memory_limit_bytes = spec_.memory_limit_mib * kBytesPerMib});
   row.planning_time_ns = std::llround(run.wall_time_s * kNanosecondsPerSecond);
   if (run.peak_memory_bytes > 0) row.peak_memory_bytes = run.peak_memory_bytes;
   if (!run.started) return Unexpected{std::string(kShell) + " cannot be started"};
@@ -403,8 +405,8 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
     row.status = db::ResultStatus::kLimit;
     row.limit = "memory";
     row.message = fmt::format("killed with {} MiB in memory", run.memory_seen_bytes / kBytesPerMib);
-    row.peak_memory_bytes = std::max(row.peak_memory_bytes.value_or(0),
-                                     static_cast<std::int64_t>(run.memory_seen_bytes));
+    row.peak_memory_bytes =
+        std::max(row.peak_memory_bytes.value_or(0), static_cast<std::int64_t>(run.memory_seen_bytes));
     return row;
   }
   const std::string words = last_words(log, signal_of(run));
@@ -419,7 +421,8 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
                               files.size() > 2 ? ", ..." : "");
   } else {
     judge(instance, options.rules, files.front(), spec_.rounding, row);
-    if (row.status == db::ResultStatus::kFailed && !row.message.empty()) row.message.append(", ").append(ending(run)).append(words);
+    if (row.status == db::ResultStatus::kFailed && !row.message.empty())
+      row.message.append(", ").append(ending(run)).append(words);
   }
   return row;
 }

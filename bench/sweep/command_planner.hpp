@@ -50,9 +50,9 @@ class CommandPlanner {
 
   /// Runs the command on an instance and judges what it left: `solved` is a plan that the
   /// validator accepts, `invalid` one that it rejects or that cannot be read, `limit` a program
-  /// that was ended for its time or memory, `failed` everything else, an empty solution among it. Wall-clock time is that of the
-  /// program from its start to its end. Tries and expansions are what the solution states.
-  /// Plans are not checked for start-safe intervals. Errors: one line, where nothing was run at all.
+  /// that was ended for its time or memory, `failed` everything else, an empty solution among it. Wall-clock
+  /// time is that of the program from its start to its end. Tries and expansions are what the solution
+  /// states. Plans are not checked for start-safe intervals. Errors: one line, where nothing was run at all.
   Expected<db::ResultRow, std::string> run(const Instance& instance, const PlannerOptions& options) const;
 
  private:

@@ -197,8 +197,10 @@ Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
     return Unexpected{std::string("several radii or speeds for the robots of files, expected one")};
   }
   if (request.suite == nullptr) return expand_folders(request);
-  if (request.suite->adversarial_cases && !(request.radii_cells.empty() && request.speeds_cells_per_s.empty())) {
-    return Unexpected{std::string("--radius or --speed for robots that have their own, expected another suite")};
+  if (request.suite->adversarial_cases &&
+      !(request.radii_cells.empty() && request.speeds_cells_per_s.empty())) {
+    return Unexpected{
+        std::string("--radius or --speed for robots that have their own, expected another suite")};
   }
   if (request.suite->adversarial_cases) return expand_adversarial(request);
   const Suite& suite = *request.suite;

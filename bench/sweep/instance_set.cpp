@@ -166,9 +166,9 @@ class FolderReader {
   void place(PreparedInstance broken, std::map<std::size_t, InstanceSet>& by_robots) {
     if (by_robots.empty() && error_.empty()) error_ = broken.broken;
     say(broken.broken);
-    const auto largest = std::max_element(by_robots.begin(), by_robots.end(), [](const auto& a, const auto& b) {
-      return a.second.instances.size() < b.second.instances.size();
-    });
+    const auto largest = std::max_element(
+        by_robots.begin(), by_robots.end(),
+        [](const auto& a, const auto& b) { return a.second.instances.size() < b.second.instances.size(); });
     if (largest == by_robots.end()) return;
     broken.row.robots = static_cast<std::int64_t>(largest->first);
     largest->second.instances.push_back(std::move(broken));

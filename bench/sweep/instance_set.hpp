@@ -14,9 +14,9 @@
 namespace sipplab::bench {
 
 struct PreparedInstance {
-  Instance instance;         ///< empty where it is broken
-  std::string broken = {};   ///< what is wrong with its file, in one line
-  db::InstanceInfo row;  ///< as the history knows it
+  Instance instance;        ///< empty where it is broken
+  std::string broken = {};  ///< what is wrong with its file, in one line
+  db::InstanceInfo row;     ///< as the history knows it
 };
 
 /// Instances with the same number of robots.
@@ -39,11 +39,11 @@ Expected<InstanceSet, std::string> generate_set(const std::string& map_spec, std
 
 /// Which files of a folder are swept, and how they are read.
 struct FolderRequest {
-  std::vector<std::size_t> robots = {};        ///< so many of each file, one set for each number; empty: all
-  std::optional<std::uint64_t> count = {};     ///< the first so many instances of each folder
-  std::optional<double> radius_cells = {};     ///< as InstanceFiles::radius_cells
+  std::vector<std::size_t> robots = {};     ///< so many of each file, one set for each number; empty: all
+  std::optional<std::uint64_t> count = {};  ///< the first so many instances of each folder
+  std::optional<double> radius_cells = {};  ///< as InstanceFiles::radius_cells
   std::optional<double> speed_cells_per_s = {};
-  bool strict = false;                         ///< what is left out or said otherwise is an error
+  bool strict = false;  ///< what is left out or said otherwise is an error
 };
 
 struct LoadedSets {
@@ -51,10 +51,10 @@ struct LoadedSets {
   std::vector<std::string> notes;  ///< one line each: files left out, broken ones, equal instances
 };
 
-/// The .xml and .scen files of a folder in natural order (2.xml before 10.xml), or those of its sub-folders where it
-/// has none itself; one set for each number of robots. Files without robots (solutions, maps, options) are left out.
-/// A broken instance stays, as one that cannot be planned, in the folder's largest set. Errors: one line; where no
-/// file is an instance, the first broken one's.
+/// The .xml and .scen files of a folder in natural order (2.xml before 10.xml), or those of its sub-folders
+/// where it has none itself; one set for each number of robots. Files without robots (solutions, maps,
+/// options) are left out. A broken instance stays, as one that cannot be planned, in the folder's largest
+/// set. Errors: one line; where no file is an instance, the first broken one's.
 Expected<LoadedSets, std::string> load_sets(const std::string& folder, const FolderRequest& request);
 
 /// A set of one instance that is in no file; `environment` is its map_spec and name, too.

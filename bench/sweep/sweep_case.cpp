@@ -36,7 +36,8 @@ std::string planner_label(const SweepCase& sweep_case) {
   const std::string label = label_of(sweep_case.options);
   if (sweep_case.command.empty()) return label;
   // Another program is told the options, too: with others it is another planner.
-  return std::string(kProgramPrefix) + sweep_case.command + label.substr(std::min(label.find(' '), label.size()));
+  return std::string(kProgramPrefix) + sweep_case.command +
+         label.substr(std::min(label.find(' '), label.size()));
 }
 
 bool is_another_program(std::string_view planner) {

@@ -27,7 +27,8 @@ struct SweepCase {
 /// size as well, files by their folder.
 std::string place_name(const std::string& map_spec, const std::string& environment);
 
-/// As tables show it: what differs from the defaults, "sipplab connectedness:3 weight:1.05", "cmd:NAME weight:1.05".
+/// As tables show it: what differs from the defaults, "sipplab connectedness:3 weight:1.05", "cmd:NAME
+/// weight:1.05".
 std::string planner_label(const SweepCase& sweep_case);
 /// Whether a label is that of another program.
 bool is_another_program(std::string_view planner);

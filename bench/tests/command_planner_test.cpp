@@ -68,7 +68,8 @@ TEST(ResidentBytes, AreThoseThatWereTouchedOfAllDescendants) {
     if (fork() == 0) {  // a grandchild holds it, and the address space of a hundred times as much
       void* const memory = mmap(nullptr, 100 * kTouched, PROT_READ | PROT_WRITE,
                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-      for (std::size_t i = 0; memory != MAP_FAILED && i < kTouched; i += 4096) static_cast<char*>(memory)[i] = 1;
+      for (std::size_t i = 0; memory != MAP_FAILED && i < kTouched; i += 4096)
+        static_cast<char*>(memory)[i] = 1;
       if (write(ready[1], "x", 1) != 1) _exit(1);
       for (;;) pause();
     }

@@ -72,9 +72,10 @@ TEST(Import, takes_words_that_are_no_numbers_as_missing) {
 }
 
 TEST(Import, takes_a_fit_whose_error_is_a_percentage) {
-  EXPECT_EQ(rows_of(with_rows(R"({"name": "a/8", "iterations": 9, "real_time": 4}, {"name": "a_BigO", "big_o": "N"},
+  EXPECT_EQ(
+      rows_of(with_rows(R"({"name": "a/8", "iterations": 9, "real_time": 4}, {"name": "a_BigO", "big_o": "N"},
                                  {"name": "a_RMS", "rms": 12%})")),
-            "a/8 0 9 4 ;");
+      "a/8 0 9 4 ;");
 }
 
 TEST(Import, takes_text_that_version_1_4_did_not_escape) {

@@ -161,7 +161,8 @@ TEST_F(Comparisons, settings_are_paired_by_instance_and_rules_where_there_is_one
   EXPECT_EQ(cells[0].base_only, 1U);
 
   // Which of two? And a plan with turns keeps other rules.
-  record("bbbb" + std::string(36, '0'), 9, "two", {planned_by("cmd:other", 5), planned_by("cmd:other", 9)}, 3);
+  record("bbbb" + std::string(36, '0'), 9, "two", {planned_by("cmd:other", 5), planned_by("cmd:other", 9)},
+         3);
   EXPECT_TRUE(pairs("main", "two").empty());
   CaseInfo turning = planned_by("cmd:other turns:yes", 5);
   turning.options["turns"] = std::int64_t{1};

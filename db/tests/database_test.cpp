@@ -137,10 +137,12 @@ TEST_F(OpenDatabase, reading_leaves_no_file_beside_it) {
 
 TEST_F(OpenDatabase, a_reader_leaves_the_log_of_a_writer_alone) {
   auto writer = test::must(Database::open(file));
-  test::must(writer.connection().execute("PRAGMA wal_autocheckpoint = 0; UPDATE run SET suite = suite", "writing"));
+  test::must(
+      writer.connection().execute("PRAGMA wal_autocheckpoint = 0; UPDATE run SET suite = suite", "writing"));
   { auto reader = test::must(Database::open_read_only(file)); }
   EXPECT_TRUE(std::filesystem::exists(file.string() + "-wal"));
-  test::must(writer.connection().execute("CREATE TABLE more (x INTEGER) STRICT; DROP TABLE more", "writing on"));
+  test::must(
+      writer.connection().execute("CREATE TABLE more (x INTEGER) STRICT; DROP TABLE more", "writing on"));
 }
 
 TEST_F(OpenDatabase, reading_an_empty_file_is_an_error) {

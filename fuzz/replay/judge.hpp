@@ -9,10 +9,10 @@ namespace sipplab::fuzz {
 /// hold no addresses, numbers or line numbers.
 struct Judgement {
   bool broken = false;
-  std::string kind;     ///< claim, invariant, sanitizer, crash, timeout, memory, leak
-  std::string claim;    ///< name of the claim, condition of the invariant, type of the error
-  std::string frames;   ///< innermost functions of the project, " < " between; may be empty
-  std::string message;  ///< the line that says what happened, as it was printed
+  std::string kind;         ///< claim, invariant, sanitizer, crash, timeout, memory, leak
+  std::string claim;        ///< name of the claim, condition of the invariant, type of the error
+  std::string frames;       ///< innermost functions of the project, " < " between; may be empty
+  std::string message;      ///< the line that says what happened, as it was printed
   std::string report = {};  ///< the first lines that the dead process printed; not part of what is compared
 
   std::string signature() const { return kind + " | " + claim + " | " + frames; }

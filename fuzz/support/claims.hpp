@@ -1,6 +1,6 @@
 // What the targets claim, and what their inputs came to. Each check is counted, so that a
-// record shows whether a claim was put to the test at all. Counts go to the file of bench/campaigns/counts.hpp that the
-// environment names, if any.
+// record shows whether a claim was put to the test at all. Counts go to the file of
+// bench/campaigns/counts.hpp that the environment names, if any.
 #pragma once
 
 #include <cstddef>

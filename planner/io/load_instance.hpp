@@ -43,8 +43,8 @@ struct LoadedInstance {
 /// file and line, unreachable goals included.
 Input<LoadedInstance> load_instance(const InstanceFiles& files);
 
-/// What a file is that holds no robots to plan for: "a solution", "a map", "XML without agents", "neither XML nor a
-/// MovingAI file". Empty for one that is an instance or a broken one, and where it cannot be read.
+/// What a file is that holds no robots to plan for: "a solution", "a map", "XML without agents", "neither XML
+/// nor a MovingAI file". Empty for one that is an instance or a broken one, and where it cannot be read.
 std::string kind_without_robots(const std::string& path);
 
 /// The map alone, from a MovingAI .map or any XML with a <map>.

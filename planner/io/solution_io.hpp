@@ -65,8 +65,8 @@ std::string write_solution(SolutionFormat format, const Instance& instance, cons
 /// "robot" before it, arrows between, and lines that begin with # are passed over. The published planner's
 /// logs are read as well: their durations, rounded to 8 digits, are summed up from time 0, and a straight
 /// section that takes its length over the robot's speed to within that rounding gets exactly that duration. A
-/// robot without motions stays where the file says that it begins, else at its start. Whether the solution is right is for validate() to say; here
-/// only its form is checked.
+/// robot without motions stays where the file says that it begins, else at its start. Whether the solution is
+/// right is for validate() to say; here only its form is checked.
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
                                        const Instance& instance);
 Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance);

@@ -29,8 +29,9 @@ class TrajectoryCollector {
  public:
   explicit TrajectoryCollector(const Instance& instance);
 
-  /// Empty when the trajectory was taken, else what is wrong: no such agent, or one that has a trajectory already.
-  /// It begins at `stated_start`, else where its first motion does; a robot without either stays at its start.
+  /// Empty when the trajectory was taken, else what is wrong: no such agent, or one that has a trajectory
+  /// already. It begins at `stated_start`, else where its first motion does; a robot without either stays at
+  /// its start.
   std::string add(const std::optional<std::string>& id, std::size_t position, Trajectory trajectory,
                   const std::optional<Cell>& stated_start);
   /// The first agent without a trajectory, if there is one.

@@ -27,8 +27,8 @@ void append_real(std::string& out, double value);
 /// person wants to read.
 std::string in_quotes(std::string_view token);
 
-/// For text between tags and in attributes of XML, SVG and HTML. Control characters, which XML does not have, become
-/// blanks; what is no UTF-8 is shown as a message shows it.
+/// For text between tags and in attributes of XML, SVG and HTML. Control characters, which XML does not have,
+/// become blanks; what is no UTF-8 is shown as a message shows it.
 std::string xml_escaped(std::string_view text);
 
 /// Some editors begin a text with it; readers pass over it.

@@ -389,8 +389,7 @@ TEST(IoSolution, ARobotThatNeverMovesHasAPlaceInEveryFormat) {
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->solution, document.solution);
   }
-  const Input<SolutionDocument> plain =
-      parse_solution("0: (0,0,0)\n1: (0,3,0)\n2: (4,2,0)\n", "s", instance);
+  const Input<SolutionDocument> plain = parse_solution("0: (0,0,0)\n1: (0,3,0)\n2: (4,2,0)\n", "s", instance);
   ASSERT_TRUE(plain) << plain.error().message();
   EXPECT_EQ(plain->solution.trajectories[2].start, (Cell{4, 2}));
 }
@@ -402,8 +401,9 @@ TEST(IoSolution, StatedPlacesAreCells) {
   };
   EXPECT_EQ(complaint(R"("goal": [4])"),
             "s:1: trajectories[0].goal is missing or of the wrong kind, expected a cell, [x, y]");
-  EXPECT_EQ(complaint(R"("start": [4, 0.5])"),
-            "s:1: trajectories[0].start[1] is missing or of the wrong kind, expected an integer within 32 bits");
+  EXPECT_EQ(
+      complaint(R"("start": [4, 0.5])"),
+      "s:1: trajectories[0].start[1] is missing or of the wrong kind, expected an integer within 32 bits");
 }
 
 TEST(IoSolution, RobotsAreToldById) {
