@@ -166,7 +166,7 @@ db::Result<Replayed> replay_one(db::Database& database, const db::StoredFinding&
   const bool breaks = verdict.verdict == bench::TargetVerdict::kBreaks;
   const auto recorded =
       SIPPLAB_TRY(db::record_replay(database, bench::run_origin(), stored.id, breaks, db::utc_now()));
-  if (!breaks) return Replayed{recorded, "holds by now"};
+  if (!breaks) return Replayed{recorded, "holds now"};
   const bool is_same = verdict.signature() == stored.finding.signature();
   return Replayed{recorded, is_same ? "still breaks" : "breaks otherwise: " + verdict.message,
                   verdict.report};

@@ -145,7 +145,7 @@ std::optional<std::string> write_pictures(const PropertyArguments& arguments, co
 }
 
 const char* text_of(bench::ProgramVerdict verdict) {
-  constexpr const char* kNames[] = {"holds by now", "still fails", "not run: its program is missing"};
+  constexpr const char* kNames[] = {"holds now", "still fails", "not run: its program is missing"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

@@ -92,7 +92,7 @@ rm programs/replay_planted_bug
 printf '#!/bin/sh\necho holds\n' >programs/replay_planted_bug
 chmod +x programs/replay_planted_bug
 expect_code 0 "$sipplab" findings replay --all --programs programs
-expect_out 'holds by now'
+expect_out 'holds now'
 expect_sql 'fixed' 'SELECT state FROM finding'
 expect_code 0 "$sipplab" findings list --open
 if grep -q 'result is whole' out; then fail 'a fixed finding is open'; fi

@@ -102,10 +102,10 @@ prints 'property  still fails'
 runs 1 bash replay_command
 prints 'still fails' err
 
-# Mended: the same property holds by now.
+# Mended: the same property holds now.
 printf '#!/bin/sh\nexit 0\n' >property_tests/property_sample
 runs 0 ./sipplab property replay "$id" --db history.db
-prints 'property  holds by now'
+prints 'property  holds now'
 # Renamed: a program without it does not mend it.
 cp "$(dirname "$2")/property_open_list" property_tests/property_sample
 runs 3 ./sipplab property replay "$number" --db history.db

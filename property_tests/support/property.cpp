@@ -171,7 +171,7 @@ bool log(const db::PropertyRun& record) {
   return !error;
 }
 
-/// Tries one counterexample again. rapidcheck's own way reports "holds by now" and
+/// Tries one counterexample again. rapidcheck's own way reports "holds now" and
 /// "cannot be found any more" as the same kind of error.
 bool reproduce_failure(const rc::detail::Property& property, const Reproduce& reproduce) {
   const auto first = property(reproduce.random, reproduce.size);
