@@ -108,7 +108,7 @@ double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk
 struct ReservationTable::Question {
   const Move& move;
   double radius;
-  int splits;  ///< of a slice by two, until the mover gets no farther than a cell in each part
+  int splits;  ///< of a slice by two, until the mover gets no farther than kSliceCells in a part
   NearFilter filter;
   double departure_s;
   double until_s;

@@ -26,8 +26,8 @@ struct Askers {
 
 /// Disks in motion, found by place and time.
 ///
-/// They lie in slices of time, each about as long as the fastest robot needs for one cell (TimeSlices): a
-/// query looks once into each slice that it meets. Slices only name candidates; the closed form of
+/// They lie in slices of time, each as long as the fastest robot needs for two cells (TimeSlices): a query
+/// looks once into each slice that it meets. Slices only name candidates; the closed form of
 /// collision_interval.hpp decides.
 class ReservationTable {
  public:
