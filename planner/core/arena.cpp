@@ -11,14 +11,14 @@ namespace sipplab {
 namespace {
 
 /// Bytes of the first chunk: what planning a dozen robots takes. Each further one of an arena is as large as
-/// all before it, up to the largest.
+/// all before it together, up to kLargestChunk.
 constexpr std::size_t kFirstChunk = std::size_t{128} << 10;
 constexpr std::size_t kLargestChunk = std::size_t{8} << 20;
-/// What is kept for later when it is given back; more goes back to the system.
+/// Bytes given back that are kept for later; more goes back to the system.
 constexpr std::size_t kMostKept = std::size_t{256} << 20;
 constexpr std::size_t kSmallestPiece = 64;
 
-/// Brings the pages in at one go; nothing is lost where the system cannot.
+/// Populates the pages in one call; harmless if the system cannot.
 void make_ready([[maybe_unused]] std::byte* begin, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
   madvise(begin, bytes, MADV_POPULATE_WRITE);
@@ -43,7 +43,7 @@ class ChunkStore {
   Arena::Chunk take(std::size_t least_bytes) {
     {
       const std::lock_guard lock(mutex_);
-      // The smallest that is large enough, since the large ones are dear.
+      // The smallest that is large enough, since large ones are costly.
       auto best = kept_.end();
       for (auto chunk = kept_.begin(); chunk != kept_.end(); ++chunk) {
         if (chunk->bytes >= least_bytes && (best == kept_.end() || chunk->bytes < best->bytes)) best = chunk;

@@ -1,4 +1,4 @@
-// Memory that one owner takes piece by piece and hands back at once.
+// Memory that one owner takes piece by piece and gives back all at once.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace sipplab {
 
-/// A bump allocator over chunks of pages. Chunks come from a store of the whole process, whose pages
-/// were touched before and stay so: in a fresh process a page fault costs as much as planning for a
-/// microsecond or more, and the plans that follow pay none. The chunks are made ready in one call where
-/// the system can (madvise), else page by page as ever. For one thread at a time; the store is for all.
+/// A bump allocator over chunks of pages. Chunks come from a store of the whole process, which keeps
+/// their pages resident: in a fresh process a page fault costs as much as planning for a microsecond or
+/// more, and later plans pay for none. New chunks are populated in one call if the system can
+/// (madvise), else page by page as usual. For one thread at a time; the store is for all threads.
 class Arena {
  public:
   Arena() = default;
@@ -29,7 +29,7 @@ class Arena {
     return static_cast<T*>(take_bytes(size_class(count * sizeof(T))));
   }
 
-  /// For who takes as many bytes next. REQUIRES: taken as `count` values.
+  /// For the next taker of as many bytes. REQUIRES: taken as `count` values.
   template <class T>
   void give_back(T* place, std::size_t count) {
     const std::size_t free_list = size_class(count * sizeof(T));
@@ -38,7 +38,7 @@ class Arena {
     free_[free_list] = piece;
   }
 
-  /// Takes back all that was given.
+  /// Takes back all memory at once.
   void reset();
 
  private:
@@ -52,7 +52,7 @@ class Arena {
   };
   friend class ChunkStore;
 
-  /// Pieces have sizes of 2^n and 3 * 2^(n - 1) bytes, so that those given back fit others.
+  /// Pieces have sizes of 2^n and 3 * 2^(n - 1) bytes, so that those given back fit later requests.
   static std::size_t size_class(std::size_t bytes);
   static std::size_t size_of(std::size_t size_class);
   void* take_bytes(std::size_t size_class);
@@ -64,8 +64,8 @@ class Arena {
   std::array<FreePiece*, 2 * 48> free_{};  ///< by size class
 };
 
-/// As much of std::vector as plain values need, in an arena. Forgets what it holds when the arena is reset:
-/// abandon() first.
+/// The part of std::vector that plain values need, in an arena. Its values are lost when the arena is reset:
+/// call abandon() first.
 template <class T>
 class ArenaVector {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -99,7 +99,7 @@ class ArenaVector {
     clear();
     resize(size, value);
   }
-  /// Without giving memory back.
+  /// Empties it without giving memory back.
   void abandon() {
     data_ = nullptr;
     size_ = capacity_ = 0;

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 /// overflow): about three years.
 inline constexpr double kLongestTimeLimitS = 1e8;
 
-/// None where the limit never strikes.
+/// None if the limit is never reached.
 inline std::optional<Clock::time_point> deadline_after(Clock::time_point begin, double limit_s) {
   if (!(limit_s < kLongestTimeLimitS)) return std::nullopt;
   return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));

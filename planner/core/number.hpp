@@ -11,8 +11,8 @@
 
 namespace sipplab {
 
-/// The number that the whole text is: digits, perhaps after a minus. None for anything else, blanks and a
-/// plus sign among it, and where it does not fit. The same on every machine and with every standard library;
+/// The number that the whole text spells: digits, perhaps after a minus. None for anything else, including
+/// blanks and a plus sign, and if it does not fit. The same on every machine and with every standard library;
 /// linear.
 template <std::integral Number>
 std::optional<Number> parse_number(std::string_view text, int base = 10) {
@@ -23,7 +23,7 @@ std::optional<Number> parse_number(std::string_view text, int base = 10) {
   return value;
 }
 
-/// The same with a point and an exponent; "inf" and "nan" are numbers too. By a library: libc++ before
+/// The same with a point and an exponent; "inf" and "nan" are numbers too. Uses a library: libc++ before
 /// version 20 has no std::from_chars for reals.
 template <std::floating_point Number>
 std::optional<Number> parse_number(std::string_view text) {

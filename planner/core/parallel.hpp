@@ -10,9 +10,9 @@
 namespace sipplab {
 
 /// Calls work(worker, index) once for each index below `count`, on up to `workers` threads at
-/// once, the caller's among them, and returns when all are done. `worker` < `workers` tells
-/// calls apart that run at the same time. Indices are begun in ascending order. A thread is
-/// made for the call and joined: some ten microseconds each.
+/// once, the caller's included, and returns when all are done. Calls that run at the same time
+/// differ in `worker` < `workers`. Indices are begun in ascending order. Threads are made for
+/// the call and joined: some ten microseconds each.
 template <class Work>
 void for_each_in_parallel(std::size_t workers, std::size_t count, Work&& work) {
   std::atomic<std::size_t> next{0};

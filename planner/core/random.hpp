@@ -1,6 +1,6 @@
 // Seeded random numbers that are the same on every compiler and standard
 // library: xoshiro256** (Blackman and Vigna 2021) seeded through splitmix64.
-// The distributions of <random> are left out because they differ between
+// The distributions of <random> are not used because they differ between
 // libraries.
 #pragma once
 

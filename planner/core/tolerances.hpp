@@ -1,5 +1,5 @@
-// Every tolerance of the planner and of its validator, in one place, with unit
-// and with the error that it covers. Nothing else in the project compares
+// Every tolerance of the planner and of its validator, in one place, with its
+// unit and the error that it covers. Nothing else in the project compares
 // floating-point numbers "nearly".
 #pragma once
 
@@ -15,13 +15,13 @@ inline constexpr double kTouchDepthCells = 1e-9;
 /// Cells. How far two bodies may be taken to have moved apart when the end of a
 /// collision interval is a contact: the interval shrinks by this much divided by
 /// the faster speed. Without it a gap of zero width between two robots that
-/// follow each other in contact would drown in rounding (errors of a few 1e-13 s
-/// at times near 1e3 s). Two robots give way once each, so overlaps of up to
+/// follow each other in contact would be lost in rounding (errors of a few 1e-13 s
+/// at times near 1e3 s). Each of two robots gives way once, so overlaps of up to
 /// twice this value can occur in a plan.
 inline constexpr double kContactSlackCells = 1e-9;
 
 /// Cells. Overlap that the validator accepts. Looser than what the planner
-/// permits itself (2 * kContactSlackCells) so that a correct plan is never
+/// allows (2 * kContactSlackCells) so that a correct plan is never
 /// called invalid, and far below any overlap that a planning error can produce.
 inline constexpr double kValidatorToleranceCells = 1e-8;
 
@@ -30,7 +30,7 @@ inline constexpr double kValidatorToleranceCells = 1e-8;
 inline constexpr double kDurationTolerance = 1e-9;
 
 /// Degrees. Difference between a stated heading and the direction of the move after it
-/// that rounding explains; turning so little takes less than 1e-9 s even at the slowest
+/// that rounding explains; so small a turn takes less than 1e-9 s even at the slowest
 /// rotation speed.
 inline constexpr double kHeadingToleranceDeg = 1e-10;
 

@@ -14,8 +14,8 @@ namespace {
 /// at least 1 / (2 * 8192^2) = 7e-9.
 constexpr double kParallelCross = 1e-10;
 
-/// The stretch of a way, in cells from its beginning, on which a point is within
-/// reach; each end either a contact or where the way itself begins or ends.
+/// The stretch of a straight segment, in cells from its beginning, on which a point is
+/// within reach. Each end is a contact or an end of the segment.
 struct Stretch {
   double begin = 0;
   double end = 0;
@@ -49,7 +49,7 @@ Stretch within_reach(Vec2 point, const Displacement& way, double reach) {
   return stretch;
 }
 
-/// Grows to the span of the candidate times that it is shown.
+/// Grows to the span of the candidate times added to it.
 class Span {
  public:
   explicit Span(double slack_s) : slack_s_(slack_s) {}
@@ -72,8 +72,8 @@ class Span {
   double end_s_ = -kForever;
 };
 
-/// The obstacle stands at the end of its motion, `end`, at `time_s`: departures that
-/// bring the mover within reach of it at just that time.
+/// The obstacle is at an end of its motion, `end`, at `time_s`: the departures that
+/// bring the mover within reach of it at exactly that time.
 void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Span& span) {
   const Stretch stretch = within_reach(end, move.way, reach);
   if (stretch.empty) return;
@@ -81,7 +81,7 @@ void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Sp
   span.add(time_s - stretch.end * move.seconds_per_cell, stretch.contact_at_end);
 }
 
-/// The mover stands at an end of its way, `after_s` seconds after departure.
+/// The mover is at an end of its move, `after_s` seconds after departure.
 void add_mover_at(Vec2 end, double after_s, const MovingDisk& obstacle, double reach, Span& span) {
   const Stretch stretch = within_reach(end, obstacle.way, reach);
   if (stretch.empty) return;
@@ -126,7 +126,7 @@ OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double r
 
 namespace {
 
-/// Past an obstacle at rest the mover is within reach of one point, on one stretch of its way.
+/// An obstacle at rest is one point, within reach on one stretch of the move.
 OpenInterval unsafe_past_rest(const Move& move, const MovingDisk& obstacle, double reach) {
   const Stretch stretch = within_reach(obstacle.from, move.way, reach);
   if (stretch.empty) return {};

@@ -1,4 +1,4 @@
-// When two disks overlap, in closed form. The heart of the planner's exactness.
+// When two disks overlap, in closed form: this is what makes the planner exact.
 //
 // A mover that departs at time t is, tau seconds later, at a + u tau; an obstacle
 // is at p + v (t + tau - t0) during [t0, t1]. Their difference
@@ -19,52 +19,52 @@
 
 namespace sipplab {
 
-/// The times at which a disk resting at `place` overlaps `obstacle`, `reach` being the
-/// sum of the two radii, in cells.
-///  (1) Ends at which the two only touch move inwards by kContactSlackCells over the
-///      obstacle's speed, so that a gap of zero width between two such intervals
+/// The times at which a disk resting at `place` overlaps `obstacle`. `reach` is the sum
+/// of the two radii, in cells.
+///  (1) An end at which the two only touch moves inwards by kContactSlackCells divided
+///      by the obstacle's speed, so that a gap of zero width between two such intervals
 ///      survives rounding.
-///  (2) Ends at which the obstacle's motion begins or ends while the two overlap move
-///      outwards by as much: the motion before or after it continues the overlap, and
-///      no false gap may appear between the two.
-///  (3) Overlap shallower than kTouchDepthCells is none.
+///  (2) An end at which the obstacle's motion begins or ends during an overlap moves
+///      outwards by the same amount: the motion before or after it continues the
+///      overlap, and no false gap may appear between the two.
+///  (3) Overlap shallower than kTouchDepthCells does not count.
 OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double reach);
 
 /// The departures for which `move` leads to an overlap with `obstacle` at some time
 /// during the move; contracts (1) to (3) hold with the faster of the two speeds.
-/// Endless where the obstacle rests for ever on the way.
+/// Endless if the obstacle rests for ever within reach of the move.
 ///
 /// REQUIRES: move.way.length > 0.
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach);
 
-/// Whether a way comes within reach of `place` anywhere outside the disk of radius `reach`
-/// around `pardoned`; a way of no length is a point.
+/// Whether `way` comes within reach of `place` outside the disk of radius `reach` around
+/// `pardoned`. A `way` of no length is a point.
 bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);
 
-/// Whether a straight way, however long, stays outside the reach of a place: if so,
+/// Whether the infinite line along `way` stays out of reach of `place`. If so,
 /// unsafe_departures is empty for a disk that rests there (3).
 inline bool passes_by(const Displacement& way, Vec2 place, double reach) {
   const double aside = cross(way.direction, place - way.from);
   return reach * reach - aside * aside <= 2 * reach * kTouchDepthCells;
 }
 
-/// Cells. How much nearer than their reach two disks may seem to stay to each other, at a
-/// departure that counts as unsafe: its interval may have been moved outwards by one
-/// kContactSlackCells in time, each of the two bodies moves that far meanwhile, and the
+/// Cells. How far beyond their reach two disks may stay from each other at a departure
+/// that still counts as unsafe: an end of its interval may have moved outwards by the time
+/// of one kContactSlackCells, each of the two bodies moves that far in this time, and the
 /// rest is for rounding.
 inline constexpr double kNearMissCells = 4 * kContactSlackCells;
 
-/// Cells. Who is nearer by so much overlaps, whatever slacks and roundings say.
+/// Cells. Disks closer than their reach by this much overlap in spite of slack and rounding.
 inline constexpr double kSureOverlapCells = 1e-7;
 
 enum class Closeness { kApart, kTouching, kOverlapping };
 
-/// How near the two come to each other: a quick test, without roots or divisions, that decides most
+/// How close the two come to each other: a quick test, without roots or divisions, that decides most
 /// departures.
-///  (1) kApart for no departure that unsafe_departures contains, so skipping them changes no answer.
-///  (2) kApart where the two stay apart by kNearMissCells or more in the time that they share.
+///  (1) Never kApart for a departure that unsafe_departures contains: skipping kApart changes no answer.
+///  (2) kApart if the two stay apart by kNearMissCells or more during the time that they share.
 ///  (3) kOverlapping only for departures that unsafe_departures contains.
-/// Inline: the planner asks it many times for each interval that it computes.
+/// Inline: the planner calls it many times for each interval that it computes.
 inline Closeness closeness(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
   const double begin_s = std::max(departure_s, obstacle.begin_s);
   const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
@@ -75,7 +75,7 @@ inline Closeness closeness(const Move& move, double departure_s, const MovingDis
   const Vec2 apart = (move.way.from + move.velocity * (begin_s - departure_s)) -
                      (obstacle.from + obstacle.velocity * (begin_s - obstacle.begin_s));
   const double approach = -dot(apart, relative);
-  double squared = 0;  // of their least distance, `scale` times
+  double squared = 0;  // the squared least distance times `scale`
   double scale = 1;
   const double relative_squared = squared_norm(relative);
   if (approach <= 0) {

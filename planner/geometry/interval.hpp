@@ -7,10 +7,9 @@ namespace sipplab {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// A closed span [begin_s, end_s]; a single point where the two are equal; endless
-/// where end_s is kForever. Safe intervals are of this kind, and points among them
-/// matter: a robot whose neighbour sets off towards it at time 0 can still leave at
-/// exactly time 0.
+/// A closed span [begin_s, end_s]; a single point if the two are equal; endless if
+/// end_s is kForever. Safe intervals are of this kind, and single points matter: a robot
+/// whose neighbour sets off towards it at time 0 can still leave at exactly time 0.
 struct Interval {
   double begin_s = 0;
   double end_s = kForever;
@@ -22,9 +21,9 @@ struct Interval {
 /// A maximal closed span in which a disk may stay at a cell. [PL11] section III.
 using SafeInterval = Interval;
 
-/// An open span (begin_s, end_s), empty where begin_s >= end_s. Times at which two
-/// disks overlap, or departures that lead to an overlap: touching is allowed, so the
-/// ends do not belong to it.
+/// An open span (begin_s, end_s), empty if begin_s >= end_s. Times at which two disks
+/// overlap, or departures that lead to an overlap: touching is allowed, so the ends are
+/// not included.
 struct OpenInterval {
   double begin_s = 0;
   double end_s = 0;

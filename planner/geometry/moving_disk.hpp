@@ -6,7 +6,7 @@
 
 namespace sipplab {
 
-/// Straight way from one point to another, without a clock.
+/// A straight segment from one point to another, without times.
 struct Displacement {
   Vec2 from;
   Vec2 to;
@@ -19,12 +19,12 @@ struct Displacement {
     length = norm(way);
     if (length > 0) direction = {way.x / length, way.y / length};
   }
-  /// For callers that know direction and length of the way already.
+  /// For callers that already know the direction and the length.
   Displacement(Vec2 begin, Vec2 end, Vec2 unit_direction, double length_cells)
       : from(begin), to(end), direction(unit_direction), length(length_cells) {}
 };
 
-/// A displacement travelled at constant speed; when is not said.
+/// A displacement travelled at constant speed; the departure is left open.
 struct Move {
   Displacement way;
   double speed = 1;  ///< cells per second, > 0
@@ -40,9 +40,9 @@ struct Move {
         velocity(displacement.direction * speed_cells_per_s) {}
 };
 
-/// A disk that follows `way` during [begin_s, end_s]; at rest where the way has no
-/// length, and then end_s may be kForever. What the test for overlap reads stands in
-/// front, in one cache line.
+/// A disk that follows `way` during [begin_s, end_s]; at rest if `way` has no length,
+/// and then end_s may be kForever. The members that the overlap test reads come first,
+/// in one cache line.
 struct alignas(64) MovingDisk {
   Vec2 from;
   Vec2 velocity;  ///< cells per second; zero at rest

@@ -19,7 +19,7 @@ struct Vec2 {
 constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 constexpr double squared_norm(Vec2 a) { return dot(a, a); }
-/// Square root of a sum of squares and not std::hypot, whose last bit differs
+/// The square root of a sum of squares, not std::hypot, whose last bit differs
 /// between C libraries.
 inline double norm(Vec2 a) { return std::sqrt(squared_norm(a)); }
 

@@ -17,7 +17,7 @@ struct Cell {
 
 constexpr Vec2 centre(Cell cell) { return {static_cast<double>(cell.x), static_cast<double>(cell.y)}; }
 
-/// Distance of two cell centres, in cells.
+/// Distance between two cell centres, in cells.
 inline double distance(Cell a, Cell b) { return norm(centre(a) - centre(b)); }
 
 }  // namespace sipplab

@@ -18,8 +18,8 @@ class GridMap {
   /// Cells along one side. The largest published grid maps have 1,024 to 4,096.
   static constexpr std::int64_t kMaxSide = 8192;
 
-  /// An empty message when a map of this size can be made, else what is wrong
-  /// with it and what was expected.
+  /// Empty if a map of this size can be made, else a message: what is wrong with
+  /// it and what was expected.
   static std::string check_size(std::int64_t width, std::int64_t height);
 
   /// All cells free. REQUIRES: check_size(width, height) is empty.

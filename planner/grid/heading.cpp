@@ -12,7 +12,7 @@ double heading_deg(Cell from, Cell to) {
   PLANNER_ASSERT(from != to);
   constexpr double kEighthTurnDeg = kFullTurnDeg / 8;
   constexpr double kDegPerRadian = 57.295779513082323;
-  // In lowest terms, so that one direction is always the same numbers.
+  // In lowest terms, so that one direction always gives the same numbers.
   const std::int64_t columns = std::int64_t{to.x} - from.x;
   const std::int64_t rows = std::int64_t{from.y} - to.y;
   const std::int64_t divisor = std::gcd(columns, rows);

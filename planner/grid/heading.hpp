@@ -16,7 +16,7 @@ inline constexpr double kFullTurnDeg = 360;
 /// same direction, and exact for multiples of 45 degrees. REQUIRES: from != to.
 double heading_deg(Cell from, Cell to);
 
-/// The shorter way from one heading to another, 0 to 180 degrees.
+/// The smaller angle between two headings, 0 to 180 degrees.
 inline double turn_deg(double from_deg, double to_deg) {
   const double apart = std::abs(from_deg - to_deg);
   return std::min(apart, kFullTurnDeg - apart);

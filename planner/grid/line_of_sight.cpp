@@ -24,7 +24,7 @@ class Capsule {
     const double low = row - kHalfCell;
     const double high = row + kHalfCell;
     if (low >= dy_ + radius_ - kTouchDepthCells || high <= -radius_ + kTouchDepthCells) return {};
-    // The capsule is its own image under a half turn about the segment's middle.
+    // The capsule is symmetric under a half turn about the segment's midpoint.
     const double left = dx_ - right_over(dy_ - high, dy_ - low);
     const double right = right_over(low, high);
     // A cell from c - 0.5 to c + 0.5 is overlapped when left < c + 0.5 and c - 0.5 < right.
@@ -35,7 +35,7 @@ class Capsule {
  private:
   static constexpr double kHalfCell = 0.5;
 
-  /// Without the function call that std::ceil is on old processors.
+  /// Saves the function call that std::ceil is on old processors.
   static std::int32_t ceil_of(double x) {
     const auto whole = static_cast<std::int32_t>(x);
     return whole + (x > whole ? 1 : 0);
@@ -58,7 +58,7 @@ class Capsule {
   double dx_;
   double dy_;
   double radius_;
-  double drop_ = 0;   ///< by so much the line begins and ends below the centres of the arcs
+  double drop_ = 0;   ///< how far below the arcs' centres the line begins and ends
   double slope_ = 0;  ///< of the line, in x for each y
   double aside_ = 0;  ///< where the line is at y = -drop
 };
@@ -66,7 +66,7 @@ class Capsule {
 }  // namespace
 
 CellRun swept_run(Cell displacement, double radius, std::int32_t row) {
-  // Mirrored so that both components are positive.
+  // Mirrored so that no component is negative.
   const CellRun run = Capsule({std::abs(displacement.x), std::abs(displacement.y)}, radius)
                           .run(displacement.y < 0 ? -row : row);
   return displacement.x < 0 ? CellRun{-run.last, -run.first} : run;
@@ -143,7 +143,7 @@ bool LineOfSight::is_clear_anew(Cell from, Cell to) const {
   if (is_open_between(from, to)) return true;
   const auto [left, right] = std::minmax({from.x, to.x});
   const auto [top, bottom] = std::minmax({from.y, to.y});
-  // The runs are those of a way to the right and downwards: mirror what they mean.
+  // The runs are for a move to the right and downwards: mirror them.
   const std::int32_t down = to.y < from.y ? -1 : 1;
   const bool to_the_right = to.x >= from.x;
   std::int32_t y = from.y - down * reach_;

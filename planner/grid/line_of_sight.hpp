@@ -1,5 +1,5 @@
-// Which straight moves a disk can make between cell centres without touching the
-// inside of a blocked cell: "line of sight for a disk".
+// Which straight moves a disk can make between cell centres without entering a
+// blocked cell: "line of sight for a disk".
 #pragma once
 
 #include <algorithm>
@@ -16,24 +16,24 @@ namespace sipplab {
 /// The run of columns [first, last] that the swept disk overlaps in one row of cells.
 struct CellRun {
   std::int32_t first = 0;
-  std::int32_t last = -1;  ///< less than `first`: none
+  std::int32_t last = -1;  ///< less than `first` if the run is empty
 };
 
-/// Cells whose inside a disk of `radius` overlaps by more than kTouchDepthCells while it
-/// moves from (0, 0) to `displacement`, in the row of cells `row`.
+/// Cells of row `row` that a disk of `radius` overlaps by more than kTouchDepthCells while
+/// it moves from (0, 0) to `displacement`.
 CellRun swept_run(Cell displacement, double radius, std::int32_t row);
 
 /// The runs of all rows that a disk of one radius sweeps, for displacements with no
-/// negative component; others follow by reflection. Kept once they were asked for.
+/// negative component; others follow by reflection. Kept from their first use on.
 class SweptRuns {
  public:
-  /// Displacements longer than this many cells in either direction are made anew each
-  /// time: they are rare, and the table must stay small (where all are asked for, 28 MiB for a
-  /// radius of 0.5 and 64 MiB for the largest).
+  /// For displacements longer than this many cells in either direction the runs are computed
+  /// each time: they are rare, and the table must stay small (when full, 28 MiB for a radius of
+  /// 0.5 and 64 MiB for the largest).
   static constexpr std::int32_t kLongestKept = 192;
 
-  /// `reach`: rows above and below the way that the disk can overlap. `longest`: no displacement
-  /// that is asked for is longer in either direction, nor needs room.
+  /// `reach`: rows above and below the move that the disk can overlap. `longest`: no displacement
+  /// that is asked for is longer in either direction, so none needs room.
   SweptRuns(double radius, std::int32_t reach, std::int32_t longest);
 
   /// Runs for rows -reach..displacement.y + reach, in order. Valid until the next call.
@@ -46,7 +46,7 @@ class SweptRuns {
   double radius_;
   std::int32_t longest_kept_;
   std::int32_t reach_;
-  std::vector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not there yet
+  std::vector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not computed yet
   std::vector<CellRun> kept_;
   std::vector<CellRun> scratch_;
 };
@@ -55,8 +55,8 @@ class SweptRuns {
 ///
 /// The swept area of a move is a capsule. In each row of cells it covers one run of
 /// cells, whose ends follow in closed form from the capsule's extent in that row. The
-/// runs of a displacement are kept from its first use on; sums of blocked cells along
-/// each row decide a row in two look-ups. For one thread at a time.
+/// runs of a displacement are kept from its first use on; prefix sums of blocked
+/// cells decide a row in two look-ups. For one thread at a time.
 class LineOfSight {
  public:
   /// `radius_cells` > 0. O(cells).
@@ -70,9 +70,9 @@ class LineOfSight {
   ///  (1) is_clear(a, b) == is_clear(b, a);
   ///  (2) is_clear(a, a) holds wherever is_legal(a);
   ///  (3) true if and only if no blocked cell is closer to the segment than the radius
-  ///      less kTouchDepthCells.
+  ///      minus kTouchDepthCells.
   ///
-  /// REQUIRES: is_legal(from) and is_legal(to). O(rows between the two); O(1) where the
+  /// REQUIRES: is_legal(from) and is_legal(to). O(rows between the two); O(1) if the
   /// rectangle around the move holds no blocked cell.
   bool is_clear(Cell from, Cell to) const {
     if (is_open_) return true;
@@ -82,12 +82,12 @@ class LineOfSight {
     return (known & 1) != 0;
   }
 
-  /// Whether the disk can move anywhere in the rectangle between the two cells: more than is_clear()
-  /// says. REQUIRES: is_legal(from) and is_legal(to). O(1).
+  /// Whether the disk can move anywhere in the rectangle between the two cells: stronger than
+  /// is_clear(). REQUIRES: is_legal(from) and is_legal(to). O(1).
   bool is_open_between(Cell from, Cell to) const {
     PLANNER_ASSERT(is_legal(from) && is_legal(to));
     if (is_open_) return true;
-    // Both ends lie inside the grid and so does all between them: the rectangle is convex.
+    // Both ends lie inside the grid, and so does all between them: the rectangle is convex.
     return !is_blocked_in(std::min(from.x, to.x) - reach_, std::max(from.x, to.x) + reach_,
                           std::min(from.y, to.y) - reach_, std::max(from.y, to.y) + reach_);
   }
@@ -102,8 +102,8 @@ class LineOfSight {
     return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(cell.x);
   }
-  /// Whether columns x0..x1 of rows y0..y1, all included and inside the grid, hold a
-  /// blocked cell.
+  /// Whether columns x0..x1 of rows y0..y1, ends included, hold a blocked cell.
+  /// All lie inside the grid.
   bool is_blocked_in(std::int32_t x0, std::int32_t x1, std::int32_t y0, std::int32_t y1) const {
     const auto stride = static_cast<std::size_t>(width_) + 1;
     const std::int32_t* above = &summed_[static_cast<std::size_t>(y0) * stride];
@@ -113,11 +113,11 @@ class LineOfSight {
   bool is_clear_anew(Cell from, Cell to) const;
   bool is_blocked_in_row(std::int32_t x0, std::int32_t x1, std::int32_t y) const;
 
-  /// Answers that are kept: searches ask again and again about the same few hundred pairs of cells.
+  /// Answers that are kept: searches ask about the same few hundred pairs of cells again and again.
   static constexpr int kKnownBits = 11;
   static constexpr std::uint64_t kHashFactor = 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio
 
-  bool is_open_;  ///< nothing stands on the map
+  bool is_open_;  ///< no cell of the map is blocked
   std::int32_t width_;
   std::int32_t height_;
   double radius_;
@@ -127,7 +127,7 @@ class LineOfSight {
   std::vector<std::uint8_t> legal_;
   mutable SweptRuns runs_;
   mutable std::vector<std::uint64_t>
-      known_;  ///< pairs of cells, by hash, and in the lowest bit what is_clear() says
+      known_;  ///< pairs of cells, by hash; the lowest bit is the answer of is_clear()
 };
 
 }  // namespace sipplab

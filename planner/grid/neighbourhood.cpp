@@ -29,7 +29,7 @@ double neighbourhood_distance(Cell from, Cell to, int k) {
   PLANNER_ASSERT(k >= kMinConnectedness && k <= kMaxConnectedness);
   // In the first octant the displacement lies between two neighbouring directions
   // lo = (1, 0) and hi = (1, 1) that span the lattice; their sum splits the sector for
-  // the next k. A displacement is i lo + j hi with whole i and j.
+  // the next k. A displacement is i lo + j hi with integers i and j.
   std::int64_t x = std::abs(static_cast<std::int64_t>(to.x) - from.x);
   std::int64_t y = std::abs(static_cast<std::int64_t>(to.y) - from.y);
   if (k == 2) return static_cast<double>(x + y);

@@ -15,8 +15,8 @@ inline constexpr int kMaxConnectedness = 5;
 /// first. REQUIRES: kMinConnectedness <= k <= kMaxConnectedness.
 std::span<const Cell> neighbourhood(int k);
 
-/// Length of the shortest way over the 2^k neighbourhood on an empty grid, in cells:
-/// Manhattan, octile, and so on. 0 where from == to.
+/// Length of the shortest path over the 2^k neighbourhood on an empty grid, in cells:
+/// Manhattan, octile, and so on. 0 if from == to.
 double neighbourhood_distance(Cell from, Cell to, int k);
 
 }  // namespace sipplab

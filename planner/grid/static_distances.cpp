@@ -11,11 +11,11 @@
 namespace sipplab {
 namespace {
 
-/// Two lengths of ways that differ by less, in cells, differ by the rounding of their sums.
+/// Cells. Path lengths that differ by less differ only by the rounding of their sums.
 constexpr double kRoundingCells = 1e-9;
 
-/// The largest disk that can go wherever the cells under it are free: steps among eight neighbours are clear
-/// if and only if all cells that they touch are.
+/// Cells. The largest radius for which a step to one of eight neighbours is clear if and only if all cells
+/// that it touches are free.
 constexpr double kCellRadius = 0.5;
 
 constexpr int kOctile = 3;
@@ -46,7 +46,7 @@ StaticDistances::Spread& StaticDistances::spread_of_goal() {
   if (const auto known = spreads_.find(index); known != spreads_.end()) return known->second;
   constexpr std::size_t kBytes = sizeof(Length) + sizeof(std::uint32_t);
   const bool is_full = (spreads_.size() + 1) * map_.cell_count() * kBytes > kMostKeptBytes;
-  // The new one takes the memory of one that is forgotten.
+  // The new spread takes the memory of a discarded one.
   auto reused = is_full && !spreads_.empty() ? spreads_.extract(spreads_.begin()) : Spreads::node_type{};
   if (reused) reused.key() = index;
   Spread& spread = reused ? spreads_.insert(std::move(reused)).position->second
@@ -74,10 +74,10 @@ double StaticDistances::searched_detour_cells(Cell cell) {
 
 std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {
   if (!is_canonical_) return UINT32_MAX;
-  constexpr std::size_t kStraight = 4;  // the others of the eight lie each between two of these
+  constexpr std::size_t kStraight = 4;  // each of the other four lies between two of these
   const auto bit = [](std::size_t i) { return std::uint32_t{1} << i; };
   if (step >= kStraight) return bit(step) | bit(step - kStraight) | bit((step + 1) % kStraight);
-  // Straight on; and aside, where the way around by a diagonal or by going aside first was blocked.
+  // Straight on; also to a side, if the path by a diagonal or by that side first was blocked.
   const std::size_t left = (step + 3) % kStraight;
   const std::size_t right = (step + 1) % kStraight;
   std::uint32_t steps = bit(step);
@@ -91,7 +91,7 @@ void StaticDistances::grow(Spread& spread) const {
   for (const Cell cell : bucket) {
     const std::size_t index = map_.index(cell);
     const Length length = spread.lengths[index];
-    if (length >> kCellBits != spread.level) continue;  // found to be nearer, and done
+    if (length >> kCellBits != spread.level) continue;  // found to be nearer and already expanded
     const std::uint32_t clear = table_.clear_steps(cell, index);
     for (std::uint32_t left = clear & std::exchange(spread.steps[index], 0); left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));

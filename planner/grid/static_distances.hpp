@@ -1,4 +1,4 @@
-// What the map's obstacles add to the way of one robot to its goal.
+// How much obstacles of the map lengthen the path of one robot to its goal.
 #pragma once
 
 #include <array>
@@ -11,32 +11,32 @@
 
 namespace sipplab {
 
-/// Lengths of the shortest ways over the steps of a neighbourhood, nobody else being on the map. From
-/// each goal Dijkstra's search spreads out backwards, as far as somebody asks and no farther, over buckets of
-/// OPEN one cell wide (Dial 1969). Lengths are whole numbers of a tiny unit, so that ways of equal length are
-/// known as such: of those over eight neighbours only the one is followed that goes diagonally as soon as it
-/// can (Harabor and Grastien, AAAI 2011).
+/// Lengths of the shortest paths over the steps of a neighbourhood, without other robots. From each goal
+/// Dijkstra's search spreads out backwards, only as far as queries need, over buckets of OPEN one cell wide
+/// (Dial 1969). Lengths are whole numbers of a tiny unit, so that paths of equal length are recognised: of
+/// those over eight neighbours the search follows only the one that goes diagonally as soon as it can
+/// (Harabor and Grastien, AAAI 2011).
 class StaticDistances {
  public:
-  /// What is known of a goal is kept for the next try of prioritized planning, up to this much in all;
+  /// What is known of each goal is kept for the next try of prioritized planning, up to this much in all;
   /// for 10,000 robots on 512 x 512 cells it would be 20 GB.
   static constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
 
   /// `steps` are those of neighbourhood(k). All three must outlive this.
   StaticDistances(const GridMap& map, const LineOfSight& line_of_sight, StepTable& steps, int k);
 
-  /// The goal of the questions that follow. REQUIRES: it is legal.
+  /// The goal of the queries that follow. REQUIRES: it is legal.
   void set_goal(Cell goal);
 
-  /// Cells by which the shortest way from `cell` to the goal is longer than on an empty map: 0 or more;
-  /// kForever where there is none. O(1) where all between the two is free; else O(cells * steps) over
+  /// Cells by which the shortest path from `cell` to the goal is longer than on an empty map: 0 or more;
+  /// kForever if there is none. O(1) if everything between the two is free; else O(cells * steps) over
   /// all calls for a goal. REQUIRES: a goal is set, and the cell is legal.
   double detour_cells(Cell cell) {
     return is_open_ || line_of_sight_.is_open_between(cell, goal_) ? 0 : searched_detour_cells(cell);
   }
 
  private:
-  /// Of a way, in 2^-32 cells; a step is rounded down.
+  /// Of a path, in 2^-32 cells; a step is rounded down.
   using Length = std::uint64_t;
   static constexpr int kCellBits = 32;
   static constexpr Length kFar = UINT64_MAX;
@@ -46,13 +46,13 @@ class StaticDistances {
     std::ptrdiff_t index_offset;
     Length length;
   };
-  /// The longest step, of sqrt(13) cells, leads four buckets on at most; and none stays in its bucket, so
-  /// that all in it is final when it is opened.
+  /// The longest step, of sqrt(13) cells, leads at most four buckets on. No step stays in its bucket, so all
+  /// entries of a bucket are final when it is opened.
   static constexpr std::size_t kBuckets = 5;
-  /// What is known of the ways to one goal.
+  /// What is known of the paths to one goal.
   struct Spread {
-    ArenaVector<Length> lengths;                      ///< by cell; final where they are below the level
-    ArenaVector<std::uint32_t> steps;                 ///< by cell: those that are to be followed from it
+    ArenaVector<Length> lengths;                      ///< by cell; final if below the level
+    ArenaVector<std::uint32_t> steps;                 ///< by cell: those to follow from it
     std::array<ArenaVector<Cell>, kBuckets> buckets;  ///< by level, in a ring
     std::size_t level = 0;                            ///< whole cells
     std::size_t open = 0;                             ///< entries in all buckets
@@ -67,24 +67,24 @@ class StaticDistances {
   using Spreads = std::unordered_map<std::size_t, Spread>;  ///< by index of the goal
 
   double searched_detour_cells(Cell cell);
-  /// What is known of goal_; begun where nothing is.
+  /// What is known of goal_; a new spread if there is none.
   Spread& spread_of_goal();
-  /// Empties the bucket of the level, and goes on to the next.
+  /// Empties the bucket of the level and goes on to the next.
   void grow(Spread& spread) const;
-  /// The steps to be followed from a cell that was reached by this one, from a cell with these clear steps.
+  /// The steps to follow from a cell that was reached by `step` from a cell with these clear steps.
   std::uint32_t followers(std::size_t step, std::uint32_t clear_before) const;
 
   const GridMap& map_;
-  bool is_open_;  ///< nothing stands on the map
+  bool is_open_;  ///< no cell of the map is blocked
   const LineOfSight& line_of_sight_;
   StepTable& table_;
   int k_;
-  bool is_canonical_;        ///< of ways of equal length one is followed
+  bool is_canonical_;        ///< of paths of equal length one is followed
   std::vector<Step> steps_;  ///< of the neighbourhood
   Arena arena_;
   Spreads spreads_;
   Cell goal_;
-  Spread* spread_ = nullptr;  ///< of goal_; none before it is asked for
+  Spread* spread_ = nullptr;  ///< of goal_; null until it is asked for
 };
 
 }  // namespace sipplab

@@ -15,8 +15,8 @@ class StepTable {
   StepTable(const LineOfSight& line_of_sight, std::size_t cell_count, int k)
       : line_of_sight_(line_of_sight), steps_(neighbourhood(k)), clear_(cell_count, kUnknown) {}
 
-  /// Bit i is set where neighbourhood(k)[i] leads to a legal cell in line of sight. Found
-  /// out when first asked for. REQUIRES: the cell is legal; `index` is its row-major index.
+  /// Bit i is set if neighbourhood(k)[i] leads to a legal cell in line of sight. Computed
+  /// on first use. REQUIRES: the cell is legal; `index` is its row-major index.
   std::uint32_t clear_steps(Cell cell, std::size_t index) {
     if (clear_[index] == kUnknown) clear_[index] = find_clear_steps(cell);
     return static_cast<std::uint32_t>(clear_[index]);

@@ -8,12 +8,12 @@
 namespace sipplab {
 namespace {
 
-/// Robots taken out at once: few, so that thousands of neighbourhoods are tried in the time
-/// that one plan takes. Trials on the paper's warehouse.
+/// Robots removed at once: few, so that thousands of neighbourhoods are tried in the time
+/// that one plan takes. From trials on the paper's warehouse.
 constexpr std::size_t kFewestRemoved = 2;
 constexpr std::size_t kMostRemoved = 5;
 
-/// Seconds. Rounding of sums of arrivals: a robot that is exactly as fast as before may make
+/// Seconds. Rounding of sums of arrivals: a robot that arrives exactly as before may make
 /// room for others.
 constexpr double kArrivalToleranceS = 1e-9;
 
@@ -26,7 +26,7 @@ class Removal {
 
   const Trajectory& before(std::size_t i) const { return taken_[i].trajectory; }
 
-  /// The first `entered` of them have come back with other trajectories.
+  /// The first `entered` of them are in the plan again, with other trajectories.
   void put_back(std::size_t entered) {
     while (entered > 0) plan_.take_out(taken_[--entered].agent);
     for (PartialPlan::Taken& taken : taken_) plan_.put_back(std::move(taken));
@@ -38,7 +38,7 @@ class Removal {
 };
 
 /// The latest arrival of robots[planned] with which the plan may still become better, if
-/// those behind it were as fast as can be.
+/// those after it were as fast as possible.
 double latest_arrival_s(const Round& round, const PartialPlan& plan, const std::vector<AgentIndex>& robots,
                         const Removal& removal, std::size_t planned) {
   double left_s = 0;            // of the flowtime that these robots had together

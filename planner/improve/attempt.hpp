@@ -1,4 +1,4 @@
-// One iteration of large neighbourhood search, tried on a plan that is as before afterwards.
+// One iteration of large neighbourhood search, tried on a plan that is restored afterwards.
 #pragma once
 
 #include <cstdint>
@@ -21,31 +21,31 @@ struct Round {
   SearchLimits limits;
 };
 
-/// Some robots, planned again in this sequence.
+/// Some robots, planned again in this order.
 struct Attempt {
   RemovalRule rule = RemovalRule::kRandom;
   std::vector<AgentIndex> robots;
-  std::vector<Trajectory> found;  ///< by place in `robots`; less where one found no way
-  double gain = 0;                ///< by which the objective falls; 0 where it does not
-  bool is_better = false;         ///< all found a way, and the plan is better with these
-  bool was_cut_short = false;     ///< by a limit: nothing is known of it
+  std::vector<Trajectory> found;  ///< by position in `robots`; fewer if one found no path
+  double gain = 0;                ///< by which the objective falls; 0 if it does not
+  bool is_better = false;         ///< all found a path, and the plan is better with these
+  bool was_cut_short = false;     ///< by a limit: its outcome is unknown
   SearchStatistics work;
 };
 
 PlanCost cost_of(const Instance& instance, const PartialPlan& plan);
 
-/// Takes robots out of the plan, plans them again, and puts them back as they were. The same
-/// plan, round and random numbers give the same attempt. REQUIRES: all robots are planned.
+/// Destroys the paths of some robots, repairs them, and restores the plan. The same plan, round
+/// and random numbers give the same attempt. REQUIRES: all robots are planned.
 Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random);
 
-/// Puts the trajectories of an attempt into a plan where they fit those of the robots in
-/// `changed`, which came in after the attempt was made, and where the plan, whose cost is
-/// `cost`, becomes better, and lowers the cost; else the plan is as before and the answer false.
+/// Puts the trajectories of an attempt into a plan of cost `cost`, and updates the cost, if they
+/// fit those of the robots in `changed`, which came in after the attempt was made, and if the
+/// plan becomes better. Otherwise the plan stays as it was and the answer is false.
 /// REQUIRES: attempt.is_better; none of its robots is in `changed`.
 bool take_over(const Round& round, const Attempt& attempt, const std::vector<AgentIndex>& changed,
                PartialPlan& plan, PlanCost& cost);
 
-/// The same in a copy of the plan that took it over. REQUIRES: it did.
+/// The same in a copy of the plan. REQUIRES: take_over() returned true for the plan.
 void repeat(const Attempt& attempt, PartialPlan& copy);
 
 }  // namespace sipplab

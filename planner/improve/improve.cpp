@@ -13,9 +13,9 @@
 namespace sipplab {
 namespace {
 
-/// Iterations that begin with the same plan, on however many threads: enough to keep several
+/// Iterations that begin with the same plan, on any number of threads: enough to keep several
 /// busy, few enough that not many are tried on a plan that is no longer the best. (Trials on the
-/// paper's warehouse: of ten iterations one or two gain something.)
+/// paper's warehouse: one or two of ten iterations gain something.)
 constexpr std::uint64_t kIterationsPerRound = 4;
 
 double length_cells(const Trajectory& trajectory) {
@@ -71,9 +71,9 @@ class LargeNeighbourhoodSearch {
     }
   }
 
-  /// The fastest way of each robot alone, and from these what no plan can beat.
+  /// The fastest path of each robot alone, and the lower bounds that follow from them.
   void find_bounds(Planners planners) {
-    std::vector<std::unique_ptr<PartialPlan>> nobody;  // planned yet, once for each thread
+    std::vector<std::unique_ptr<PartialPlan>> nobody;  // plans without robots, one for each thread
     for (SingleAgentPlanner* planner : planners) {
       nobody.push_back(std::make_unique<PartialPlan>(instance_, 0, *planner));
     }
@@ -101,7 +101,7 @@ class LargeNeighbourhoodSearch {
   }
 
   /// Tries some neighbourhoods of the same plan, then takes over those that make it better, in
-  /// the sequence of their numbers, so that it is all one which thread tried which.
+  /// the order of their numbers, so that it does not matter which thread tried which.
   void play_round(std::uint64_t iterations) {
     const Round round{instance_, options_.objective, roulette_, static_times_s_, fastest_ways_, cost_,
                       limits_};
@@ -111,8 +111,8 @@ class LargeNeighbourhoodSearch {
     });
     std::vector<AgentIndex> changed;
     for (const Attempt& attempt : attempts) {
-      // An iteration that a limit cut short never was, nor were those behind it: what
-      // counts is how many there were.
+      // An iteration that a limit cut short does not count, nor do those after it: the
+      // result depends on the number of iterations alone.
       if (attempt.was_cut_short) break;
       ++result_.log.iterations;
       result_.statistics += attempt.work;
@@ -121,7 +121,7 @@ class LargeNeighbourhoodSearch {
     }
   }
 
-  /// Takes over an attempt, if it still fits and the plan is better with it.
+  /// Takes over an attempt if it still fits and the plan is better with it.
   void take(const Round& round, const Attempt& attempt, std::vector<AgentIndex>& changed) {
     const auto is_changed = [&](AgentIndex robot) {
       return std::find(changed.begin(), changed.end(), robot) != changed.end();

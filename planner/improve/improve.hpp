@@ -1,5 +1,5 @@
-// Anytime large neighbourhood search: a few robots are taken out of a plan and planned
-// again around the others, and what is better stays. Li et al., IJCAI 2021, over the exact
+// Anytime large neighbourhood search: the paths of a few robots are destroyed and repaired
+// around the others, and a better plan is kept. Li et al., IJCAI 2021, over the exact
 // planner; beyond [AY18].
 #pragma once
 
@@ -29,29 +29,29 @@ struct ImprovementLog {
   LowerBound bound;
   std::uint64_t iterations = 0;
   std::uint64_t improvements = 0;
-  bool was_cut_short = false;  ///< by the clock or by somebody who asked to end
-  /// Whether the promise of start-safe intervals is kept.
+  bool was_cut_short = false;  ///< by the clock or by a request to stop
+  /// Whether the promise of start-safe intervals holds.
   bool keeps_promise = true;
 };
 
 struct ImproveResult {
   Solution solution;
-  /// A final order that keeps the promise of start-safe intervals; none where the given plan
-  /// kept it in no order: then the result promises freedom from collisions alone.
+  /// A final order that keeps the promise of start-safe intervals; none if the given plan
+  /// kept it in no order: then only freedom from collisions is promised.
   std::optional<PriorityOrder> order;
   ImprovementLog log;
   SearchStatistics statistics;
 };
 
-/// Improves a plan until a limit strikes:
+/// Improves a plan until a limit is reached:
 ///  (1) the result is never worse than the given plan (is_better());
-///  (2) it is free of conflicts where the given plan is;
-///  (3) it keeps the promise of start-safe intervals where the given plan keeps it in some order;
+///  (2) it is free of conflicts if the given plan is;
+///  (3) it keeps the promise of start-safe intervals if the given plan keeps it in some order;
 ///  (4) the same input, options and number of iterations give the same result, on any number
-///      of threads: a limit in seconds decides nothing but the number of iterations.
-/// `order` is the given plan's: the result's is near it. Of the options, ssi_s is what the plan promises,
-/// improve, objective, seed, threads and stop say how it is improved (without `improve` there is no limit),
-/// and the planner for one robot, which finds new trajectories, is the one that they name. REQUIRES:
+///      of threads: a limit in seconds affects only the number of iterations.
+/// `order` is that of the given plan; the order of the result is close to it. Of the options, ssi_s is what
+/// the plan promises; improve, objective, seed, threads and stop say how it is improved (without `improve`
+/// there is no limit). The options also name the planner for one robot that finds new trajectories. REQUIRES:
 /// !find_error(instance); the solution is valid, and one of that planner's kind; !options.rules.inflates().
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const PlannerOptions& options);

@@ -7,25 +7,25 @@
 namespace sipplab {
 namespace {
 
-/// How much of a rule's weight the last gain makes up.
+/// Share of the last gain in a rule's weight.
 constexpr double kLearningRate = 0.02;
-/// Least share of a weight of 1, so that no rule is given up for good.
+/// Least weight, the greatest being 1: no rule is given up for good.
 constexpr double kLeastWeight = 0.05;
-/// By how much the greatest gain is forgotten with each iteration.
+/// Factor by which the greatest gain decays with each iteration.
 constexpr double kScaleDecay = 0.999;
 
-/// Seconds that every robot's delay counts more, so that those without any are drawn, too:
-/// they may be in the way of others.
+/// Seconds added to every robot's delay, so that robots without delay are drawn, too: they
+/// may block others.
 constexpr double kDelayFloorS = 0.25;
 
-/// Robots that arrive last: the rule draws one of so many.
+/// Robots that arrive last: the rule draws one of this many.
 constexpr std::size_t kLastOnes = 5;
 
 /// Half the side of a window, in cells, and its length, in seconds.
 constexpr double kWindowCells = 3;
 constexpr double kWindowS = 6;
 
-/// Draws an index by weight. REQUIRES: a weight is above 0.
+/// Draws an index by weight. REQUIRES: some weight is above 0.
 template <class Weights>
 std::size_t draw_by(const Weights& weights, Random& random) {
   const double sum = std::accumulate(std::begin(weights), std::end(weights), 0.0);
@@ -61,7 +61,7 @@ AgentIndex one_of_the_last(const Neighbours& among, Random& random) {
   return agents[static_cast<std::size_t>(random.below(count))];
 }
 
-/// Where a robot is at a time.
+/// Where a robot is at a given time.
 Vec2 place_at(const Trajectory& trajectory, double time_s) {
   for (const TimedMotion& motion : trajectory.motions) {
     if (time_s >= motion.end_s) continue;
@@ -71,8 +71,8 @@ Vec2 place_at(const Trajectory& trajectory, double time_s) {
   return centre(trajectory.end());
 }
 
-/// Whether a robot comes within the window around a place and a time; by the boxes of its
-/// motions, which is near enough.
+/// Whether a robot comes within the window around a place and a time, by the bounding boxes of
+/// its motions: close enough.
 bool visits(const Trajectory& trajectory, Vec2 place, double time_s) {
   const auto is_near = [&](Cell from, Cell to) {
     const auto [left, right] = std::minmax(from.x, to.x);
@@ -87,7 +87,7 @@ bool visits(const Trajectory& trajectory, Vec2 place, double time_s) {
   return trajectory.arrival_s() <= time_s + kWindowS / 2 && is_near(trajectory.end(), trajectory.end());
 }
 
-/// Fills up with random ones of `others`.
+/// Fills up with random robots of `others`.
 void add_some(std::vector<AgentIndex>& chosen, std::vector<AgentIndex> others, std::size_t most,
               Random& random) {
   random.shuffle(others);

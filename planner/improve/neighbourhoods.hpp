@@ -1,7 +1,7 @@
-// Which robots to take out of a plan and plan again.
+// Which robots' paths to destroy and repair.
 // After Li, Chen, Harabor, Stuckey and Koenig, "Anytime Multi-Agent Path Finding via Large
 // Neighborhood Search", IJCAI 2021: their agent-based and random rules, a rule for places in
-// time, and one for the last to arrive; the choice adapts as in Ropke and Pisinger 2006.
+// time, and one for the last to arrive; adaptive selection as in Ropke and Pisinger 2006.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 namespace sipplab {
 
 enum class RemovalRule {
-  kCrossing,  ///< a robot, drawn by its delay, and some that stand in its fastest way
-  kLast,      ///< a robot among the last to arrive, and likewise
+  kCrossing,  ///< a robot, drawn by its delay, and some in conflict with its fastest path
+  kLast,      ///< the same for a robot among the last to arrive
   kWindow,    ///< robots that come near one place within a short time
   kRandom,    ///< any, drawn by delay
 };
@@ -33,20 +33,20 @@ struct Neighbours {
 };
 
 /// At least one robot and at most `most` of them, all different.
-/// REQUIRES: all robots are planned, and there is one at least; most > 0.
+/// REQUIRES: all robots are planned, and there is at least one; most > 0.
 std::vector<AgentIndex> choose_neighbourhood(RemovalRule rule, const Neighbours& among, std::size_t most,
                                              Random& random);
 
-/// A roulette that turns to the rules which gain most for the work they cost.
+/// Adaptive selection by roulette wheel: favours rules that gain most for their work.
 class RuleRoulette {
  public:
   RemovalRule draw(Random& random) const;
-  /// `gain` >= 0, per unit of work, in whatever unit.
+  /// `gain` >= 0, per unit of work, in any unit.
   void learn(RemovalRule rule, double gain);
 
  private:
   std::array<double, kRemovalRules> weights_ = {1, 1, 1, 1};
-  double scale_ = 0;  ///< greatest gain of late, so that weights do not depend on units
+  double scale_ = 0;  ///< greatest recent gain, so that weights do not depend on units
 };
 
 }  // namespace sipplab

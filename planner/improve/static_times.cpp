@@ -13,15 +13,15 @@
 namespace sipplab {
 namespace {
 
-/// A cell that a way may turn in.
+/// A possible turning point of a path.
 struct Corner {
   Cell cell;
-  double from_start = kForever;  ///< length of the shortest way known, in cells
+  double from_start = kForever;  ///< length of the shortest path known, in cells
   double to_goal = 0;            ///< straight
   bool is_settled = false;
 };
 
-/// Cells on some way from start to goal of less than `longest`, the start first.
+/// Cells that some path shorter than `longest` could pass, the start first.
 std::vector<Corner> cells_of_ellipse(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
                                      double longest) {
   std::vector<Corner> corners = {{from, 0, distance(from, to)}};
@@ -114,7 +114,7 @@ double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight,
 
 namespace {
 
-/// Lines of sight of one thread: they remember what they were asked.
+/// Lines of sight of one thread: they keep their answers.
 class LinesOfSight {
  public:
   explicit LinesOfSight(const GridMap& map) : map_(map) {}

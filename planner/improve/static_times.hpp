@@ -1,4 +1,4 @@
-// How fast each robot could be if it were alone: what no plan can beat.
+// How early each robot could arrive if it were alone: lower bounds on any plan.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sipplab {
 
-/// What no plan of the instance can fall below, in seconds.
+/// Lower bounds on the cost of any plan of the instance, in seconds.
 struct LowerBound {
   double flowtime_s = 0;  ///< sum of the robots' static times
   double makespan_s = 0;  ///< greatest of them
@@ -17,15 +17,15 @@ struct LowerBound {
 /// Pairs of cells looked at for one robot; about a hundredth of a second. On the paper's
 /// warehouse every robot needs less.
 inline constexpr std::size_t kMostStaticWork = 1'000'000;
-/// ... and for all robots together; about two seconds. Some hundred robots have the former.
+/// ... and for all robots together; about two seconds. Up to 200 robots have the former.
 inline constexpr std::size_t kMostStaticWorkOfAll = 200'000'000;
 
-/// Length, in cells, of the shortest way over straight sections between cell centres that a
-/// disk can travel on the map; kForever where there is none.
+/// Length, in cells, of the shortest path of straight moves between cell centres that a disk
+/// can make on the map; kForever if there is none.
 ///
 /// A* over all cells in line of sight, limited to those of an ellipse: `longest` is the
-/// length of some way that exists. Exact, but where the work for it would exceed
-/// `most_work`; then the least f in OPEN, which is a lower bound, too.
+/// length of some path that exists. Exact unless the work for it would exceed `most_work`;
+/// then the least f in OPEN, which is a lower bound, too.
 double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
                                 double longest, std::size_t most_work = kMostStaticWork);
 
@@ -33,11 +33,11 @@ double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_s
 double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to, int k);
 
 /// Lower bounds on the arrival of each robot alone on the map, in seconds. `solo_cells` are the
-/// lengths of ways that exist, by robot. The same on any number of threads.
+/// lengths of paths that exist, by robot. The same on any number of threads.
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
                                    const std::vector<double>& solo_cells, unsigned threads = 1);
 
-/// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 where
+/// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 if
 /// there is no cost.
 double gap(double cost_s, double bound_s);
 

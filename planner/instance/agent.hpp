@@ -34,7 +34,7 @@ struct Agent {
   double start_heading_deg = 0;
   /// None: any heading will do ("whatever").
   std::optional<double> goal_heading_deg;
-  /// Turns of 180 degrees per second. Counts, as the headings do, if MotionRules say so.
+  /// Turns of 180 degrees per second. Used, like the headings, if MotionRules say so.
   double rotation_speed = kDefaultRotationSpeed;
 
   friend bool operator==(const Agent&, const Agent&) = default;

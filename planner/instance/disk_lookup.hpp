@@ -1,4 +1,4 @@
-// Which of many disks on cell centres overlap a given one, without asking all.
+// Which of many disks on cell centres overlap a given one, without testing all.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace sipplab {
 /// as touching; disks on one cell always overlap.
 bool disks_overlap(Cell a, double radius_a_cells, Cell b, double radius_b_cells);
 
-/// Disks in buckets, a grid of buckets for each size class of disks, so that one
-/// large disk does not make the search among small ones slow.
+/// Disks in buckets, a grid of buckets for each size class of disks, so that one large disk does not slow
+/// down the search among small ones.
 class DiskLookup {
  public:
   /// REQUIRES: radius_cells <= kMaxRadiusCells.

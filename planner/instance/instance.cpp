@@ -1,4 +1,4 @@
-// The rules an instance has to keep, and its name; see instance.hpp.
+// The rules an instance has to keep, and its hash; see instance.hpp.
 #include "planner/instance/instance.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +14,11 @@
 namespace sipplab {
 namespace {
 
-/// Seconds. Ends of obstacles' motions: at this time a double tells times apart to 2e-9 s. Robots that wait
-/// for an obstacle much longer lose the slack with which contacts are told from overlaps.
+/// Seconds. Ends of obstacles' motions: at this time a double resolves 2e-9 s. Robots that wait for an
+/// obstacle much longer lose the slack that tells contacts from overlaps.
 constexpr double kMaxObstacleTimeS = 1e7;
-/// Share by which the speed of an obstacle's motion, taken from its times, may be off by their rounding: some
-/// ulp of 1e3 s over a thousandth of a second.
+/// Relative error that rounding of times may cause in the speed of an obstacle's motion: some ulp of 1e3 s
+/// over a thousandth of a second.
 constexpr double kSpeedRounding = 1e-9;
 /// Cells. An obstacle may come from beyond the grid, but not from farther away
 /// than the widest grid.

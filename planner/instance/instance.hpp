@@ -1,5 +1,5 @@
-// A problem: a map, the agents on it, and obstacles that move on their own. Read
-// this file first: everything else speaks of an Instance.
+// A problem: a map, the agents on it, and obstacles that move on their own. Read this file first: everything
+// else refers to an Instance.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ struct Instance {
 /// Of all agents; 0 if there are none.
 double largest_radius_cells(const Instance& instance);
 
-/// Why an instance is not a problem that can be posed.
+/// Why an instance is not valid.
 struct InstanceError {
   std::optional<AgentIndex> agent;  ///< the later one if two are at odds
   std::optional<std::size_t> obstacle;

@@ -130,14 +130,13 @@ std::vector<std::uint32_t> standing_components(const GridMap& map, const RowSums
 
 /// Small squares along one side of a cell, for curves that leave the lattice.
 constexpr std::int32_t kParts = 4;
-/// Small squares in all; beyond that the question stays open rather than take
-/// seconds and gigabytes: maps of 1,000 x 1,000 cells are within.
+/// Small squares in all; beyond that the question stays open, to save seconds and gigabytes. Maps of
+/// 1,000 x 1,000 cells are within.
 constexpr std::size_t kMaxSmallSquares = std::size_t{1} << 24;
 
-/// Components of the small squares in which some point might have clearance r:
-/// those whose centre has r less half their diagonal. Neighbours over corners are
-/// joined, so a curve of the disk's centre never leaves a component. Empty when the
-/// map is too large for this.
+/// Components of the small squares in which some point might have clearance r: those whose centre has r minus
+/// half their diagonal. Diagonal neighbours are joined, so a curve of the disk's centre never leaves a
+/// component. Empty when the map is too large for this.
 std::vector<std::uint32_t> wandering_components(const GridMap& map, const RowSums& sums,
                                                 double radius_cells) {
   constexpr auto kPartsPerCell = static_cast<std::size_t>(kParts) * static_cast<std::size_t>(kParts);

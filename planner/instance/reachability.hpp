@@ -19,12 +19,11 @@ std::vector<std::uint32_t> standing_components(const GridMap& map, double radius
 
 /// The first agent whose goal cannot be reached from its start, in input order.
 ///
-/// Exact for radii up to 0.5: a straight move that such a disk can make touches
-/// free cells alone, and these form a chain of 4-neighbours. A larger disk can make
-/// diagonal or longer moves between cells that no chain of 4-neighbours joins
-/// (radius 0.6: from (0, 0) to (1, 1) past blocked (2, 0) and (-1, 1)). For such
-/// radii an agent is named only when no curve at all joins start and goal, at a
-/// resolution of a quarter of a cell that errs towards reachable.
+/// Exact for radii up to 0.5: a straight move that such a disk can make touches only free cells, and these
+/// form a chain of 4-neighbours. A larger disk can make diagonal or longer moves between cells that no chain
+/// of 4-neighbours joins (radius 0.6: from (0, 0) to (1, 1) past blocked (2, 0) and (-1, 1)). For such radii
+/// an agent is named only if no curve at all joins start and goal, at a resolution of a quarter of a cell
+/// that errs towards reachable.
 /// REQUIRES: !find_error(instance).
 std::optional<InstanceError> find_unreachable_goal(const Instance& instance);
 

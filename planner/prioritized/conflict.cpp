@@ -49,8 +49,8 @@ bool are_in_conflict(const Agent& agent, const Trajectory& mine, double other_ra
     const TimedMotion b = part_of(other, j);
     if (overlap(agent, a, other_radius_cells, b)) return true;
     if (a.end_s == kForever && b.end_s == kForever) return false;
-    // Of two that end together both are left: neither meets the other's next part for
-    // longer than a moment, and that moment belongs to the parts before as well.
+    // If both parts end together, go on in both: neither meets the other's next part for longer than a
+    // moment, and that moment belongs to the parts before as well.
     if (a.end_s <= b.end_s) ++i;
     if (b.end_s <= a.end_s) ++j;
   }

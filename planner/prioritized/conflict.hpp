@@ -1,6 +1,5 @@
-// Whether two trajectories are in conflict, as the planner sees it: by the collision
-// intervals that its searches respect, so that what a search found is in conflict with none
-// of those that it went around.
+// Whether two trajectories are in conflict, as the planner sees it: by the collision intervals that its
+// searches respect, so that what a search found is in conflict with none of those that it was planned around.
 #pragma once
 
 #include "planner/instance/agent.hpp"

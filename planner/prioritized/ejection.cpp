@@ -47,7 +47,7 @@ class Ejection {
     return among.find(agent, left_of(limits_, result_.statistics), result_.statistics);
   }
 
-  /// Plans the next robot. False where that ends the run.
+  /// Plans the next robot. False if that ends the run.
   bool step() {
     const AgentIndex agent = waiting_.front();
     waiting_.pop_front();
@@ -65,9 +65,9 @@ class Ejection {
     return make_room(agent, std::move(*forced));
   }
 
-  /// A way around none of the planned robots but some that it would eject once more: each of
-  /// these with a probability that grows with the times it did so already. Where that is
-  /// asked too much, half of them give way.
+  /// A path through all planned robots, except some that it would eject once more: each is held with a
+  /// probability that grows with its past ejections by this robot. While there is no such path, half of those
+  /// held are let go.
   Found find_forced_way(AgentIndex agent) {
     std::vector<AgentIndex> held;
     for (const auto& [other, times] : ejected_by_[agent]) {
@@ -77,7 +77,7 @@ class Ejection {
       for (const AgentIndex other : held) sketch_.insert(other, plan_.trajectory(other));
       Found found = find(sketch_, agent);
       for (const AgentIndex other : held) sketch_.take_out(other);
-      // Starts of those that are held are not protected in the sketch.
+      // Starts of held robots are not protected in the sketch.
       if (found && (held.empty() || plan_.keeps_promise(agent, *found))) return found;
       if (!found && (held.empty() || found.error() != PlanFailure::kNoPath)) return found;
       random_.shuffle(held);
@@ -90,7 +90,7 @@ class Ejection {
     return false;
   }
 
-  /// Takes out those in the way of a robot and lets in again those that need not go.
+  /// Takes out those that block the robot and puts back those that need not go.
   bool make_room(AgentIndex agent, Trajectory way) {
     std::vector<AgentIndex> candidates = plan_.conflicts(agent, way);
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -138,10 +138,10 @@ class Ejection {
   SearchLimits limits_;
   std::uint64_t max_restarts_;
   PartialPlan plan_;
-  PartialPlan sketch_;  ///< empty but while a way is forced
+  PartialPlan sketch_;  ///< empty except while a path is forced
   Random random_;
   std::vector<std::uint64_t> times_ejected_;
-  std::vector<std::map<AgentIndex, std::uint64_t>> ejected_by_;  ///< by robot: whom, and how often
+  std::vector<std::map<AgentIndex, std::uint64_t>> ejected_by_;  ///< by robot: which, and how often
   PriorityOrder order_;                                          ///< the initial one
   std::deque<AgentIndex> waiting_;
   PlanResult result_;

@@ -1,4 +1,4 @@
-// What a run of planning may spend.
+// What a planning run may spend.
 #pragma once
 
 #include "planner/core/clock.hpp"
@@ -7,7 +7,7 @@
 
 namespace sipplab {
 
-/// Those of a run that began then.
+/// Those of a run that began at `begin`.
 inline SearchLimits search_limits(const PlannerOptions& options, Clock::time_point begin) {
   SearchLimits limits;
   limits.max_expansions = options.max_expansions;
@@ -16,7 +16,7 @@ inline SearchLimits search_limits(const PlannerOptions& options, Clock::time_poi
   return limits;
 }
 
-/// What is left of them after the work that was done.
+/// What is left of them after the work done.
 inline SearchLimits left_of(const SearchLimits& limits, const SearchStatistics& done) {
   SearchLimits left = limits;
   left.max_expansions = limits.max_expansions - done.expansions;

@@ -16,21 +16,20 @@
 
 namespace sipplab {
 
-/// Robots enter and leave it in any sequence. What is in it is free of conflicts, and as
-/// long as each trajectory comes from find(), some order keeps the promise of start-safe
-/// intervals: see StartPrecedence.
+/// Robots enter and leave it in any sequence. Its trajectories are free of conflicts. As long as each comes
+/// from find(), some order keeps the promise of start-safe intervals: see StartPrecedence.
 class PartialPlan {
  public:
-  /// Nobody is planned yet. Instance and planner must outlive it.
+  /// No robot is planned yet. Instance and planner must outlive it.
   /// REQUIRES: !find_error(instance), ssi_s >= 0.
   PartialPlan(const Instance& instance, double ssi_s, SingleAgentPlanner& planner);
 
-  /// A trajectory for a robot that is not planned: around all that are, off the starts of
-  /// those that are not, and off the starts of those that must come after it in the order.
+  /// A trajectory for a robot that is not planned: around all planned ones, off the starts of the others, and
+  /// off the starts of those that must come after it in the order.
   Expected<Trajectory, PlanFailure> find(AgentIndex agent, const SearchLimits& limits,
                                          SearchStatistics& statistics);
 
-  /// REQUIRES: the robot is not planned; the trajectory is in conflict with nobody.
+  /// REQUIRES: the robot is not planned; the trajectory is in conflict with none.
   void insert(AgentIndex agent, Trajectory trajectory);
   /// What take_out() took, to be put back as it was.
   struct Taken {
@@ -40,7 +39,7 @@ class PartialPlan {
   };
   /// REQUIRES: the robot is planned.
   Taken take_out(AgentIndex agent);
-  /// REQUIRES: the robot is not planned; its trajectory is in conflict with nobody.
+  /// REQUIRES: the robot is not planned; its trajectory is in conflict with none.
   void put_back(Taken taken);
 
   bool is_planned(AgentIndex agent) const { return trajectories_[agent].has_value(); }
@@ -55,14 +54,14 @@ class PartialPlan {
   bool keeps_promise(AgentIndex agent, const Trajectory& trajectory) {
     return !precedence_.closes_cycle(agent, trajectory);
   }
-  /// Whether a trajectory that was found while `other` was not planned still may be inserted
-  /// now that it is. REQUIRES: `agent` is not planned, `other` is.
+  /// Whether a trajectory found while `other` was not planned may still be inserted now that it is.
+  /// REQUIRES: `agent` is not planned, `other` is.
   bool still_fits(AgentIndex agent, const Trajectory& trajectory, AgentIndex other);
 
   /// REQUIRES: all robots are planned.
   Solution solution() const;
-  /// A final order of all robots that keeps the promise, near the sequence in which they were
-  /// inserted last; none where there is no such order.
+  /// A final order of all robots that keeps the promise, near the sequence in which they were inserted last;
+  /// none if there is no such order.
   std::optional<PriorityOrder> order() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a run of planning gave.
+// The result of a planning run.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace sipplab {
 
-/// One pass over an order; by ejection, the planning of robots until one fails.
+/// One pass over an order; with ejection, planning until a robot fails.
 struct Try {
-  /// By ejection only the last try has one: the final order, or the first where none was found.
+  /// With ejection only the last try has one: the final order, or the first if none was found.
   PriorityOrder order;
   std::optional<AgentIndex> failed;  ///< the agent for which no trajectory was found
-  std::vector<AgentIndex> ejected;   ///< by ejection: those that made room for it
+  std::vector<AgentIndex> ejected;   ///< with ejection: those that made room for it
 };
 
 enum class PlanStatus {
@@ -33,12 +33,12 @@ struct PlanResult {
   Solution solution;  ///< all trajectories when solved, else empty
   /// Every try in turn; the last one has the final order.
   std::vector<Try> trace;
-  Method made_by = Method::kPrioritized;  ///< who made the plan, or failed last
+  Method made_by = Method::kPrioritized;  ///< what made the plan, or failed last
   SearchStatistics statistics;            ///< over all tries
-  double ssi_s = 0;                       ///< start-safe interval that the last try was to keep
-  /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. As
-  /// long as it was to be kept, except for plans of the complete planner, which makes them
-  /// first and then looks for the order that keeps the promise the longest.
+  double ssi_s = 0;                       ///< start-safe interval that the last try had to keep
+  /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. Equals ssi_s, except
+  /// for plans of the complete planner, which makes them first and then looks for the order that keeps the
+  /// promise the longest.
   double ssi_kept_s = 0;
   double planning_seconds = 0;  ///< wall clock, planning alone
 

@@ -28,10 +28,10 @@ class OrderSequence {
 
   /// Moves on to the order to try after `failed` found no trajectory:
   ///  (1) none: there is no next order;
-  ///  (2) deterministic: `failed` goes to the front, the others keep their order; none
-  ///      where that order was tried before;
-  ///  (3) random: a uniform draw from the orders not tried yet; none where all were.
-  /// False where there is no next order.
+  ///  (2) deterministic: `failed` goes to the front, the others keep their order; none if that order was
+  ///      tried before;
+  ///  (3) random: a uniform draw from the orders not tried yet; none if all were.
+  /// False if there is no next order.
   bool advance(AgentIndex failed);
 
  private:

@@ -12,18 +12,17 @@ namespace sipplab {
 
 class StartGuard {
  public:
-  /// Protects no start yet; never any where ssi_s is 0. Instance and table must outlive it.
+  /// Protects no start yet; never any if ssi_s is 0. Instance and table must outlive it.
   StartGuard(const Instance& instance, double ssi_s, ReservationTable& reservations);
 
-  /// Protects the start of a robot; nothing changes where it is protected already.
+  /// Protects the start of a robot; no effect if it is protected already.
   void protect(AgentIndex agent);
-  /// Protects it no more; nothing changes where it is not protected.
+  /// Ends its protection; no effect if it is not protected.
   void lift(AgentIndex agent);
 
-  /// The robot is about to be planned: its own start is no obstacle to it, now and
-  /// afterwards. Starts that are protected for ever let it in where its own goal overlaps
-  /// them, while it is within the disk of its goal; else a goal on the start of another
-  /// robot could never be reached.
+  /// The robot is about to be planned: its own start is no obstacle to it, now and afterwards. Starts that
+  /// are protected for ever let it in if its own goal overlaps them, while it is within the disk of its goal;
+  /// otherwise a goal on the start of another robot could never be reached.
   void begin(AgentIndex agent);
   /// The robot has been planned.
   void end();

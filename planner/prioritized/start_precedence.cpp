@@ -12,7 +12,7 @@
 namespace sipplab {
 namespace {
 
-/// Cells. Overlap with a start that is none: more than planned robots come too close
+/// Cells. Overlap with a start that does not count: more than planned robots come too close
 /// (2 * kContactSlackCells), less than the validator accepts (kValidatorToleranceCells).
 constexpr double kCrossingDepthCells = 5e-9;
 

@@ -1,5 +1,5 @@
-// Four disks at a time: which of them may come near a robot during a slice of time? In the compilers' own
-// vectors, so that every machine has it; what it lets through is decided exactly afterwards.
+// Four disks at a time: which of them may come near a robot during a slice of time? Uses the compilers' own
+// vectors, so every machine has it. What it lets through is decided exactly afterwards.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sipplab {
 
-/// A disk's motion during one slice, as a line in the time since the slice began, in slices.
+/// A disk's motion during one slice, linear in the time since the slice began, in slices.
 struct alignas(32) SliceEntry {
   float x;  ///< at the beginning of the slice, on the line
   float y;
@@ -21,7 +21,7 @@ struct alignas(32) SliceEntry {
   float end;
 };
 
-/// The motion of a robot during a slice, or a part of it, in the same terms; one value four times over.
+/// The motion of a robot during a slice or a part of it, in the same units; each value four times.
 class NearFilter {
   using Float4 [[gnu::vector_size(16)]] = float;
   using Int4 [[gnu::vector_size(16)]] = std::int32_t;
@@ -30,7 +30,7 @@ class NearFilter {
   /// `velocity` in cells per slice.
   NearFilter(Vec2 velocity, double reach) : vx_(all(velocity.x)), vy_(all(velocity.y)), reach_(all(reach)) {}
 
-  /// From now on the robot is at this place when the slice begins, and what counts is [begin, end] of it.
+  /// From now on the robot is at `place` when the slice begins, and only [begin, end] of it counts.
   void set(Vec2 place, double begin, double end) {
     x_ = all(place.x);
     y_ = all(place.y);
@@ -38,8 +38,8 @@ class NearFilter {
     end_ = all(end);
   }
 
-  /// Bit i is set where the two come nearer than the sum of entry i's radius and `reach` in the time that
-  /// they share, as far as floats can tell.
+  /// Bit i is set if robot and entry i come nearer than entry i's radius plus `reach` in the time they share,
+  /// as far as floats can tell.
   unsigned near(const SliceEntry& a, const SliceEntry& b, const SliceEntry& c, const SliceEntry& d) const {
     Float4 x = load(&a.x), y = load(&b.x), radius = load(&c.x), disk = load(&d.x);
     transpose(x, y, radius, disk);
@@ -51,7 +51,7 @@ class NearFilter {
     vy -= vy_;
     x += vx * begin - x_;
     y += vy * begin - y_;
-    // When they are nearest to each other; not a number, and then at once, where they move alike.
+    // When they are nearest to each other; not a number, and then taken as 0, if they move alike.
     Float4 nearest = -(x * vx + y * vy) / (vx * vx + vy * vy);
     nearest = nearest > 0.0F ? nearest : Float4{};
     nearest = nearest < span ? nearest : span;
@@ -82,7 +82,7 @@ class NearFilter {
     c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   }
-  /// Of lanes that are all ones or all zeros.
+  /// The lanes are all ones or all zeros.
   static unsigned bits(Int4 lanes) {
 #if defined(__SSE__)
     return static_cast<unsigned>(__builtin_ia32_movmskps(__builtin_bit_cast(Float4, lanes)));

@@ -1,6 +1,6 @@
-// Reservations of [YA17], section 4, with exact collision intervals. Differs from
-// [YA17]: a query looks once for each slice of time, at the place where the mover is then,
-// each disk being entered wherever it can be touched from.
+// Reservations of [YA17], section 4, with exact collision intervals.
+// Differs from [YA17]: a query looks once for each slice of time, where the mover is then. Each disk is
+// entered wherever it can be touched from.
 #include "planner/reservation/reservation_table.hpp"
 
 #include <algorithm>
@@ -15,18 +15,17 @@
 namespace sipplab {
 namespace {
 
-/// Cells. How far the fastest robot gets in a slice, and how far from the place of a look-up it is at most.
+/// Cells. How far the fastest robot gets in a slice, and how far it is at most from the place of a look-up.
 /// (Instructions of a plan with 1, 2 and 3 cells, one instance each: empty 64 100 / 89 / 87 %, empty 192
 /// 100 / 95 / 98 %, warehouse 64 100 / 95 / 95 %.)
 constexpr double kSliceCells = 2;
 constexpr double kHalfStepCells = kSliceCells / 2;
 
-/// Cells, and cells for each cell of the map's longer side. What floats may lose of distances.
+/// Cells, and cells for each cell of the map's longer side. The error of distances in floats.
 constexpr double kFilterMargin = 1e-4;
 constexpr double kFilterMarginPerCell = 5e-7;
 
-/// Slots of one slice: 256 KiB of them, which is where maps of more than 256 x 256 cells begin to have larger
-/// blocks.
+/// Slots of one slice: 256 KiB of them. Maps of more than 256 x 256 cells have larger blocks.
 constexpr std::size_t kMostBlocks = std::size_t{1} << 14;
 
 double filter_margin(const GridMap& map) {
@@ -105,18 +104,18 @@ double ReservationTable::end_of_overlap(const Move& move, const MovingDisk& disk
   return unsafe.contains(departure_s) ? unsafe.end_s : departure_s;
 }
 
-/// A move that is asked about, and what the answer needs to remember.
+/// A query about a move, and what it remembers.
 struct ReservationTable::Question {
   const Move& move;
   double radius;
-  int splits;  ///< of a slice by two, until the mover gets no farther than a cell in each part
+  int splits;  ///< of a slice by two, until the mover gets no farther than kSliceCells in a part
   NearFilter filter;
   double departure_s;
   double until_s;
   double later_s;             ///< the next departure to ask about
   DiskId blocker;             ///< met last
-  double resume_s = 0;        ///< after departure: where that was
-  std::uint32_t cleared = 0;  ///< disks that were found to be out of the way at this departure
+  double resume_s = 0;        ///< after departure: when it was met
+  std::uint32_t cleared = 0;  ///< disks found clear at this departure
   std::array<DiskId, 4> clear_disks{kNoDisk, kNoDisk, kNoDisk, kNoDisk};
 
   bool is_news(DiskId disk) const {
@@ -125,7 +124,7 @@ struct ReservationTable::Question {
   }
 };
 
-/// Whether departing then is unsafe for the disk; the question knows when it is not any more.
+/// Whether departing then is unsafe because of the disk; if so, later_s is when it no longer is.
 inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) const {
   if (!question.is_news(id)) return false;
   const MovingDisk& disk = disks_[id];
@@ -134,7 +133,7 @@ inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) c
         closeness(question.move, question.departure_s, disk, question.radius + disk.radius);
     if (close == Closeness::kApart) return false;
     if (close == Closeness::kOverlapping && question.departure_s >= question.until_s) {
-      question.later_s = std::nextafter(question.departure_s, kForever);  // nobody asks how much later
+      question.later_s = std::nextafter(question.departure_s, kForever);  // how much later does not matter
       question.blocker = id;
       return true;
     }
@@ -148,12 +147,12 @@ inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) c
   return false;
 }
 
-/// Whether a disk that is met in [from_s, to_s] of absolute time stands in the way.
+/// Whether a disk that is met in [from_s, to_s] of absolute time blocks the move.
 bool ReservationTable::is_stopped(Question& question, double from_s, double to_s) const {
   const auto test = [&](DiskId id) { return stands_in_the_way(question, id); };
   const Vec2 velocity = question.move.velocity;
   const Vec2 origin =
-      question.move.way.from + velocity * -question.departure_s;  // at time 0, were it on its way
+      question.move.way.from + velocity * -question.departure_s;  // its place at time 0, extrapolated
   const double windows_per_s = slices_.per_second() * static_cast<double>(std::int64_t{1} << question.splits);
   const double window_s = 1 / windows_per_s;
   for (auto window = static_cast<std::int64_t>(from_s * windows_per_s);; ++window) {
@@ -171,7 +170,7 @@ bool ReservationTable::is_stopped(Question& question, double from_s, double to_s
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
                                             double until_s, DiskId* likely_blocker) const {
   if (from_s == kForever || (!keepouts_.empty() && is_kept_out(move.way, radius_cells))) return kForever;
-  // Unsafe departures may reach so much beyond the time that is spent near a disk.
+  // Unsafe departures may reach this much beyond the time that is spent near a disk.
   const double slack_s = kNearMissCells * move.seconds_per_cell;
   const double margin_s = slack_s < slices_.margin_s() ? 0 : slack_s;  // entries are that much longer already
   int splits = 0;
@@ -188,12 +187,12 @@ double ReservationTable::earliest_departure(const Move& move, double radius_cell
     if (stopped) {
       question.departure_s = question.later_s;
       if (question.departure_s > until_s || question.departure_s == kForever) break;
-      // Another departure, another question, except for the disk that was just answered.
+      // A new departure: all disks are news again, except the one just answered.
       question.clear_disks.fill(question.blocker);
     }
     const double begin_s = std::max(question.departure_s - margin_s, 0.0);
     const double end_s = question.departure_s + move.duration + margin_s;
-    // First from where the last one was met: what stands beyond it is news.
+    // First from where the last disk was met: what lies beyond it is news.
     const double resume_s = std::min(std::max(begin_s, question.departure_s + question.resume_s), end_s);
     stopped = is_stopped(question, resume_s, end_s) ||
               (resume_s > begin_s && is_stopped(question, begin_s, resume_s));

@@ -1,5 +1,5 @@
-// The space-time that planned robots, dynamic obstacles and protected starts take:
-// planned disks in, safe intervals and earliest departures out.
+// The space-time that planned robots, dynamic obstacles and protected starts occupy: planned disks in, safe
+// intervals and earliest departures out.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@
 
 namespace sipplab {
 
-/// What is to be known of the robots that ask, and of their rules.
+/// What the table must know about the asking robots and their rules.
 struct Askers {
   double max_radius_cells = 0.5;
-  double max_speed_cells_per_s = 1;  ///< faster ones may ask; their queries take longer
-  /// Every disk is taken to be where it is so much sooner and later as well.
+  double max_speed_cells_per_s = 1;  ///< faster robots may ask; their queries take longer
+  /// Every disk also occupies its place this much earlier and later.
   double time_margin_s = 0;
 };
 
 /// Disks in motion, found by place and time.
 ///
-/// They lie in slices of time, each about as long as the fastest robot needs for one cell (TimeSlices): a
-/// query looks once into each slice that it meets. These only name candidates; the closed form of
+/// They lie in slices of time, each as long as the fastest robot needs for two cells (TimeSlices): a query
+/// looks once into each slice that it meets. Slices only name candidates; the closed form of
 /// collision_interval.hpp decides.
 class ReservationTable {
  public:
@@ -43,17 +43,17 @@ class ReservationTable {
   /// Forgets all disks; keeps memory for the next try.
   void clear();
 
-  /// Adds one disk. O(cells near its way).
+  /// Adds one disk. O(cells near its path).
   DiskId add(const MovingDisk& disk);
-  /// Removes a disk; its id may be given to another one from now on.
-  /// REQUIRES: added, not removed yet. O(cells near its way * disks there).
+  /// Removes a disk; its id may be reused from now on.
+  /// REQUIRES: added, not removed yet. O(cells near its path * disks there).
   void remove(DiskId id);
-  /// Adds a whole trajectory and the rest at its end for ever; their ids, for remove().
+  /// Adds a trajectory and the rest at its end for ever. Returns their ids, for remove().
   std::vector<DiskId> add(const Trajectory& trajectory, double radius_cells);
 
-  /// Keeps robots away from a disk for ever, except while they are in the disk of the same
-  /// reach around `pardoned`. For the robot that is planned next only: forgotten by
-  /// clear_keepouts(). O(1); each makes every query a little slower.
+  /// Keeps robots away from a disk for ever, except while they are in the disk of the same reach around
+  /// `pardoned`. Only for the robot that is planned next: forgotten by clear_keepouts(). O(1); each makes
+  /// every query a little slower.
   void add_keepout(Vec2 place, double radius_cells, Vec2 pardoned);
   void clear_keepouts() { keepouts_.clear(); }
 
@@ -65,14 +65,13 @@ class ReservationTable {
     return safe_times_.at(map_.index(cell), radius_cells, disks_);
   }
 
-  /// The least departure t >= from_s for which the move overlaps no disk. Gives up as
-  /// soon as every departure up to until_s is known to be unsafe and then returns
-  /// some lower bound on the least safe departure that is greater than until_s; kForever
-  /// where no departure from from_s on is safe.
-  /// Of the disks that stood in the way, the last is stored in `likely_blocker` and is
-  /// looked at first by the next query: who asks for similar moves passes the same variable,
-  /// kNoDisk at first. The answer depends neither on it nor on the order in which disks were added: it is the
-  /// least time in none of the open intervals of unsafe departures, to the last bit.
+  /// The least departure t >= from_s for which the move overlaps no disk. Gives up as soon as every departure
+  /// up to until_s is known to be unsafe and then returns some lower bound on the least safe departure that
+  /// is greater than until_s; kForever if no departure from from_s on is safe.
+  /// The last blocking disk is stored in `likely_blocker` and is checked first by the next query: callers
+  /// with similar moves pass the same variable, kNoDisk at first. The answer depends neither on it nor on the
+  /// order in which disks were added: it is the least time outside all open intervals of unsafe departures,
+  /// to the last bit.
   /// REQUIRES: the move joins two different cell centres of the map.
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s,
                             DiskId* likely_blocker = nullptr) const;
@@ -85,7 +84,7 @@ class ReservationTable {
   };
   struct Question;
   bool is_kept_out(const Displacement& way, double radius_cells) const;
-  /// Where departing then is unsafe for a disk: the end of the unsafe departures around it. Else departure_s.
+  /// The end of the disk's unsafe departures around departure_s, or departure_s if it is safe.
   double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                         double departure_s) const;
   bool stands_in_the_way(Question& question, DiskId id) const;

@@ -39,7 +39,7 @@ void SafeTimes::for_each_cell_near(const MovingDisk& disk, Visit&& visit) const 
   };
   const auto [left, right] = std::minmax(a.x, b.x);
   const auto [top, bottom] = std::minmax(a.y, b.y);
-  // On a slanted way the disk is so near a row on a stretch of it alone.
+  // On a slanted move only a stretch of a row is within reach.
   const Vec2 direction = disk.way.direction;
   const bool slanted = direction.y != 0;
   const double x_per_row = slanted ? direction.x / direction.y : 0;
@@ -158,7 +158,7 @@ void SafeTimes::reserve(Set& set, std::uint32_t capacity) {
 void SafeTimes::cut(Set& set, OpenInterval unsafe) {
   reserve(set, set.size + 1);
   Interval* const intervals = set.intervals;
-  // From the end: robots are planned forward in time, and what is last is often what is cut.
+  // From the end: robots are planned forward in time, so the last interval is often cut.
   Interval* last = intervals + set.size;  // one past those that begin before the end of the cut
   while (last > intervals && (last - 1)->begin_s >= unsafe.end_s) --last;
   Interval* first = last;

@@ -1,4 +1,4 @@
-// By cell: who comes near its centre, and when a robot may stay there.
+// By cell: which disks come near its centre, and when a robot may stay.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@
 
 namespace sipplab {
 
-/// Safe intervals of every cell for robots of a few radii, kept up to date as disks are added. Where one was
-/// removed they are cut out of all time anew when asked for, by the list of those near the cell.
+/// Safe intervals of every cell for robots of a few radii, kept up to date as disks are added. After a
+/// removal they are cut out of all time anew when asked for, from the list of disks near the cell.
 class SafeTimes {
  public:
   using DiskId = std::uint32_t;
 
   SafeTimes(const GridMap& map, double max_radius_cells, double time_margin_s, Arena& arena);
 
-  /// Forgets all, after a reset of the arena.
+  /// Forgets all disks, after a reset of the arena.
   void clear();
 
   void add(const MovingDisk& disk, DiskId id);
@@ -45,7 +45,7 @@ class SafeTimes {
   static constexpr std::uint32_t kFirstRoom = 4;  ///< intervals; as many as fit the arena's smallest piece
   static constexpr std::size_t kMostRadii = 4;    ///< that are kept up to date
 
-  /// All of time where there is no room for any.
+  /// All of time if the capacity is 0.
   struct Set {
     Interval* intervals;
     std::uint32_t size;
@@ -75,7 +75,7 @@ class SafeTimes {
   Arena& arena_;
   std::array<OfRadius, kMostRadii> by_radius_{};
   std::size_t used_ = 0;              ///< of by_radius_
-  std::size_t replaced_ = 0;          ///< which of them was given another radius last
+  std::size_t replaced_ = 0;          ///< how often one of them got another radius
   ArenaVector<std::uint32_t> heads_;  ///< by cell: its list; 0 for none
   ArenaVector<Near> near_;
   std::uint32_t free_near_ = 0;

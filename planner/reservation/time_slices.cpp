@@ -7,10 +7,10 @@
 namespace sipplab {
 namespace {
 
-/// Entries for which a slice has room at first, and slots for those that overflow.
+/// Entries for which a slice has room at first, and slots for overflow.
 constexpr std::uint32_t kFirstRoom = 16;
 
-/// The first plain values of a row, with room for more.
+/// Copies the first plain values of a row, with room for more.
 template <class T>
 T* copy(const T* row, std::size_t count, std::size_t capacity, Arena& arena) {
   if (capacity == 0) return nullptr;
@@ -96,7 +96,7 @@ void Slice::remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks)
 }
 
 Slice::EntryId Slice::take_out(Slot& head, std::uint32_t disk) {
-  // The newest of the first slot takes the place of the one that goes.
+  // The newest of the first slot replaces the one that is removed.
   const auto newest = static_cast<EntryId>(head.low & UINT16_MAX);
   for (Slot* slot = &head;; slot = &more_[slot->high >> kMoreShift]) {
     for (std::uint64_t* word : {&slot->low, &slot->high}) {

@@ -1,4 +1,4 @@
-// Disks in motion and at rest, found by place and time: what queries of a ReservationTable look through.
+// Disks in motion and at rest, found by place and time: what queries of a ReservationTable search.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ struct Sweep {
   double radius;
 };
 
-/// Blocks of cells, each small enough that the disks which matter to a robot in it are few. A disk matters to
-/// a block where it comes nearer to the block's square than its radius and `room` together.
+/// Blocks of cells, each small enough that few disks matter to a robot in it. A disk matters to a block if it
+/// comes nearer to the block's square than its radius plus `room`.
 class Blocks {
  public:
-  /// The smallest blocks of which there are `most` at most.
+  /// The smallest blocks of which there are at most `most`.
   Blocks(const GridMap& map, double room, std::size_t most);
 
   std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
@@ -47,8 +47,8 @@ class Blocks {
   std::int32_t rows_ = 0;
 };
 
-/// The disks of one slice of time, by block. A slot of 16 bytes holds the places of seven entries, zero for
-/// none, and that of a slot with more.
+/// The disks of one slice of time, by block. A slot of 16 bytes holds the indices of seven entries, zero for
+/// none, and of a slot with more.
 class Slice {
  public:
   Slice(const Blocks& blocks, Arena& arena);
@@ -57,8 +57,8 @@ class Slice {
 
   bool is_empty(std::size_t block) const { return slots_[block].low == 0; }
 
-  /// Shows test(disk) those that may come nearer to a robot in the block than the sum of the radii, until it
-  /// says yes: whether it did.
+  /// Calls test(disk) for disks that may come nearer to a robot in the block than the sum of the radii, until
+  /// one call returns true. Returns whether one did.
   template <class Test>
   bool any_near(std::size_t block, const NearFilter& filter, Test&& test) const {
     const Slot* slot = &slots_[block];
@@ -86,7 +86,7 @@ class Slice {
   static constexpr int kIdBits = 16;
   static constexpr int kMoreShift = 48;
   static constexpr std::uint64_t kIdsOfHigh = (std::uint64_t{1} << kMoreShift) - 1;
-  /// Four ids, and three with the place of the next slot above them; the newest is the lowest.
+  /// Four ids, and three with the index of the next slot above them; the newest is the lowest.
   struct alignas(16) Slot {
     std::uint64_t low;
     std::uint64_t high;
@@ -116,15 +116,15 @@ class Slice {
   EntryId take_out(Slot& slot, std::uint32_t disk);
 
   Slot* slots_;           ///< by block
-  SliceEntry* entries_;   ///< the first is nowhere
+  SliceEntry* entries_;   ///< the first is never near
   Slot* more_ = nullptr;  ///< the first is unused
   std::uint32_t entry_count_ = 1, entry_capacity_, free_entry_ = 0;
   std::uint32_t more_count_ = 1, more_capacity_ = 0, free_more_ = 0;
 };
 
-/// Disks lie in each slice of time that they meet. The last slice has nothing but what rests for ever, goals
-/// above all, and stands for all later times. What would be in too many slices, or beyond them, is taken to
-/// be in a circle about its middle at all times.
+/// Disks lie in each slice of time that they meet. The last slice holds only disks that rest for ever, mostly
+/// at goals, and stands for all later times. A disk that would be in too many slices, or beyond them, is
+/// taken to fill a circle about its middle at all times.
 class TimeSlices {
  public:
   /// Memory comes from the arena. A slice takes `slice_s`.
@@ -139,7 +139,7 @@ class TimeSlices {
     clear();
   }
 
-  /// Forgets all, after a reset of the arena.
+  /// Forgets all disks, after a reset of the arena.
   void clear();
 
   void put(const MovingDisk& disk, std::uint32_t id);
@@ -148,11 +148,11 @@ class TimeSlices {
 
   double per_second() const { return per_second_; }
   double slice_s() const { return slice_s_; }
-  /// By so much disks are taken to stay longer, at least.
+  /// Disks are taken to stay at least this much longer.
   double margin_s() const { return kMargin / 2 * slice_s_; }
 
-  /// As of Slice, in slice number `slice` and among what stays. During [begin_s, end_s] of the slice the
-  /// robot is at `origin` + velocity * time, absolute, and near the middle of it in the block.
+  /// As in Slice, for slice number `slice` and the disks in no slice. During [begin_s, end_s] of the slice
+  /// the robot is at `origin` + velocity * time, absolute, and about halfway in the block.
   template <class Test>
   bool any_near(std::size_t slice, std::size_t block, NearFilter& filter, Vec2 origin, Vec2 velocity,
                 double begin_s, double end_s, Test&& test) const {
@@ -167,14 +167,13 @@ class TimeSlices {
   }
 
  private:
-  /// Slices. Disks that rest for longer are listed apart, and those that move so slowly, and those of later
-  /// times.
+  /// Slices. Disks that rest for longer, move more slowly or come later are listed apart.
   static constexpr double kLongestRest = 64;
   static constexpr double kMostForCell = 8;
   static constexpr double kMostSlices = 4096;
-  /// Slices. Covers roundings to floats within a slice, and of the time at which it begins.
+  /// Slices. Covers rounding to floats within a slice, and of the time at which it begins.
   static constexpr double kMargin = 1e-5;
-  /// Cells for each cell per slice. What floats lose of the places of very fast disks.
+  /// Cells for each cell per slice. The error of floats in the places of very fast disks.
   static constexpr double kLostOfSpeed = 1e-6;
 
   struct Span {
@@ -182,7 +181,7 @@ class TimeSlices {
     std::size_t last;
   };
 
-  /// Empty for a disk that is not for slices; to the last one there is for what rests for ever.
+  /// Empty for a disk that goes in no slice; up to the last slice for one that rests for ever.
   Span span_of(const MovingDisk& disk) const;
   SliceEntry part_of(const MovingDisk& disk, std::size_t slice, std::uint32_t id) const;
   Sweep sweep_of(const MovingDisk& disk, std::size_t slice) const;
@@ -193,8 +192,8 @@ class TimeSlices {
   double time_margin_s_;
   Arena& arena_;
   ArenaVector<Slice> slices_;
-  ArenaVector<Slice> others_;         ///< what is in no slice; as many as it takes
-  std::vector<std::uint16_t> other_;  ///< by disk: number of the one in others_; 0: it is in slices
+  ArenaVector<Slice> others_;         ///< disks in no slice; as many as it takes
+  std::vector<std::uint16_t> other_;  ///< by disk: 1 + its index in others_; 0: it is in slices
 };
 
 template <class Visit>

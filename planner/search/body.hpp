@@ -1,4 +1,4 @@
-// What a search knows of a robot's radius alone, on one map.
+// What a search knows about robots of one radius on one map.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace sipplab {
 
-/// Which steps and ways a search is about.
+/// Which moves and bounds a search uses.
 struct BodyOptions {
   bool any_angle = true;
   int connectedness = 2;  ///< 2^k neighbours
-  bool detours = true;    ///< whether detour_cells() will be asked
+  bool detours = true;    ///< whether detour_cells() is used
 };
 
 class Body {
@@ -31,23 +31,23 @@ class Body {
         distances_(map, line_of_sight, steps_, static_connectedness(options)),
         connectedness_(options.connectedness),
         static_connectedness_(static_connectedness(options)) {}
-  Body(const Body&) = delete;  // its parts know where the others are
+  Body(const Body&) = delete;  // its parts refer to each other
   Body& operator=(const Body&) = delete;
 
-  /// Bit i is set where step i of the neighbourhood leads to a legal cell in line of sight. REQUIRES: the
-  /// cell is legal; `index` is its row-major index.
+  /// Bit i is set if step i of the neighbourhood leads to a legal cell in line of sight. REQUIRES: the cell
+  /// is legal; `index` is its row-major index.
   std::uint32_t clear_steps(Cell cell, std::size_t index) {
     return steps_.clear_steps(cell, index) & own_steps_;
   }
 
-  /// As of StaticDistances.
+  /// See StaticDistances.
   void set_goal(Cell goal) { distances_.set_goal(goal); }
 
   /// What the map's obstacles add to the robot's path from the cell to its goal, in cells. Straight distance
-  /// plus detour is never more than the shortest path by steps. REQUIRES: options.detours.
+  /// plus detour never exceeds the shortest path by steps. REQUIRES: options.detours.
   double detour_cells(Cell cell) { return distances_.detour_cells(cell); }
 
-  /// A lower bound on the path by steps from the cell to the goal, in cells. `detour` is that of the cell.
+  /// A lower bound on the path by steps from the cell to the goal, in cells. `detour` is detour_cells(cell).
   double least_steps_cells(Cell cell, Cell goal, double detour) const {
     return std::max(neighbourhood_distance(cell, goal, connectedness_),
                     neighbourhood_distance(cell, goal, static_connectedness_) + detour);
@@ -57,14 +57,14 @@ class Body {
 
  private:
   static constexpr int kOctile = 3;
-  /// Octile ways come nearer to those by any angle than Manhattan ones, and are never longer.
+  /// Octile paths are closer to any-angle paths than Manhattan ones, and never longer.
   static int static_connectedness(BodyOptions options) {
     return options.any_angle && options.detours ? std::max(options.connectedness, kOctile)
                                                 : options.connectedness;
   }
 
   std::uint32_t own_steps_;
-  StepTable steps_;  ///< of own_steps_, and more where octile distances ask for them
+  StepTable steps_;  ///< of own_steps_, and more if octile distances need them
   StaticDistances distances_;
   int connectedness_;
   int static_connectedness_;  ///< of distances_

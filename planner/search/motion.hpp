@@ -1,5 +1,5 @@
-// What kinds of robots differ in: the states that a search tells apart, and when a robot that has
-// arrived may set off. A compile-time policy of Sipp, so that plain robots pay for no heading.
+// How kinds of robots differ: which states a search distinguishes, and when a robot that has arrived may
+// depart. A compile-time policy of Sipp, so that plain robots pay nothing for headings.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace sipplab {
 
-/// A robot that sets off at once, in any direction: one state for each cell and safe interval.
+/// A robot that departs at once, in any direction: one state for each cell and safe interval.
 class PlainMotion {
  public:
   static constexpr bool kTurns = false;
@@ -29,29 +29,29 @@ class PlainMotion {
   static Heading start_heading() { return {}; }
   /// When the robot may leave the node in this direction.
   static double ready_s(const Node& node, Heading) { return node.arrival_s; }
-  /// What is to be added to the time of travel from the cell to the goal, at least.
+  /// A lower bound on the time to add to the travel from the cell to the goal.
   static double standing_s(Cell, Heading) { return 0; }
-  /// The earliest known arrival in the node's safe interval, facing this way.
+  /// The earliest known arrival in the node's safe interval with this heading.
   static double known_s(const Nodes& nodes, NodeId id, Heading) { return nodes[id].arrival_s; }
-  /// The node that stands for an earlier arrival, facing this way.
+  /// The node for an earlier arrival with this heading.
   static NodeId node_for(Nodes&, NodeId id, Heading, double) { return id; }
   static void face(Node&, Heading) {}
-  /// Adds the turn to this heading; when it is done.
+  /// Adds the turn to this heading; returns its end.
   static double turn(const Node& at, Heading, Trajectory&) { return at.arrival_s; }
   static void turn_at_goal(const Node&, Trajectory&) {}
 };
 
-/// A node of a robot with a heading. Those of one cell and safe interval are a list, which begins with the
-/// one that was laid out.
+/// A node of a robot with a heading. Those of one cell and safe interval form a list that begins with the one
+/// that was laid out.
 struct TurningNode : SippNode {
   double heading_deg = 0;
   NodeId first = kNoNode;  ///< of the list
   NodeId next = kNoNode;
 };
 
-/// A robot that turns in place before it moves, or stands for a while. A state is a cell, a safe interval,
-/// a heading and an arrival: (heading a, time s) is as good as (heading b, time t) only where s plus the
-/// turn from a to b is at most t. An earlier arrival with another heading by itself is not.
+/// A robot that turns in place before it moves, or stands for a while. A state is a cell, a safe interval, a
+/// heading and an arrival: (heading a, time s) is as good as (heading b, time t) only if s plus the turn from
+/// a to b is at most t. An earlier arrival with another heading is not enough.
 class TurningMotion {
  public:
   static constexpr bool kTurns = true;
@@ -67,9 +67,9 @@ class TurningMotion {
   double ready_s(const Node& node, Heading to) const {
     return node.arrival_s + turn_s(node.heading_deg, to) + rules_->wait_before_move_s;
   }
-  /// Whoever goes somewhere else turns at least as far as straight there: ways whose directions all lie
-  /// nearer add up to nearer directions, and beyond half a turn there is none. At the end the goal heading
-  /// is faced, which bounds turns likewise.
+  /// No path to the goal turns less than the straight move there: if all its moves pointed nearer to `now`,
+  /// so would their sum, and no direction is more than half a turn away. The goal heading bounds turns
+  /// likewise.
   double standing_s(Cell cell, Heading now) const {
     const double last_s = agent_->goal_heading_deg ? turn_s(now, *agent_->goal_heading_deg) : 0.0;
     if (cell == agent_->goal) return last_s;

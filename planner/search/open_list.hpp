@@ -1,6 +1,6 @@
-// OPEN: nodes by least f, then greatest g, then first come. Besides settled nodes it
-// holds lazy successors: ways to a node whose arrival is only bounded from below so far.
-// Entries that were overtaken stay in the list and are recognised when they come up.
+// OPEN: nodes by least f, then greatest g, then oldest entry. Besides nodes with a known arrival it holds
+// lazy successors: nodes whose arrival is so far only bounded from below. Overtaken entries stay in the list
+// and are recognised when they are popped.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace sipplab {
 
-/// Entries wait unsorted in buckets of equal width in f. Only the bucket from which
-/// entries are popped is a heap: most entries of the later ones are never looked at again.
+/// Entries wait unsorted in buckets of equal width in f. Only the bucket from which entries are popped is a
+/// heap: most entries of later buckets are never looked at again.
 class OpenList {
  public:
   explicit OpenList(Arena& arena) : heap_(arena), later_(arena), heads_(arena) {}
@@ -23,17 +23,17 @@ class OpenList {
     double f;
     double arrival_s;  ///< g when queued; for a lazy successor a lower bound on it
     NodeId node;
-    NodeId from;         ///< for a lazy successor the node next to it, kNoNode for a settled one
-    NodeId parent;       ///< for a lazy successor the one from which it may be reached straight, or kNoNode
-    std::uint32_t link;  ///< in a bucket the entry below it, on the heap when it came
+    NodeId from;         ///< for a lazy successor the node it is reached from, else kNoNode
+    NodeId parent;       ///< for a lazy successor the node to try a straight move from, or kNoNode
+    std::uint32_t link;  ///< in a bucket the entry before it, on the heap its sequence number
 
     bool is_lazy() const { return from != kNoNode; }
   };
 
   bool empty() const { return size_ == 0; }
 
-  /// Empties the list for a search whose f values begin near `least_f`; the order does not
-  /// depend on these two, the speed does. REQUIRES: bucket_width > 0.
+  /// Empties the list for a search whose f values begin near `least_f`; the two arguments affect speed, not
+  /// order. REQUIRES: bucket_width > 0.
   void begin(double least_f, double bucket_width) {
     heap_.clear();
     later_.clear();
@@ -44,7 +44,7 @@ class OpenList {
     size_ = 0;
   }
 
-  /// A node with its arrival. O(log size of a bucket).
+  /// A node and its arrival. O(log size of a bucket).
   void push(NodeId node, double f, double arrival_s) { push({f, arrival_s, node, kNoNode, kNoNode, 0}); }
 
   /// A lazy successor. O(log size of a bucket).
@@ -64,9 +64,9 @@ class OpenList {
   }
 
  private:
-  /// Children of a heap node. Four lie in two cache lines and halve the depth of two.
+  /// Children of a heap node. Four fit in two cache lines; the heap is half as deep as with two.
   static constexpr std::size_t kArity = 4;
-  /// What lies farther away than this many buckets shares the last one.
+  /// Entries beyond this many buckets share the last one.
   static constexpr std::size_t kLastBucket = 8191;
 
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -89,7 +89,7 @@ class OpenList {
     const std::size_t bucket = bucket_of(entry.f);
     if (bucket <= current_) {
       entry.link = sequence;
-      later_.push_back(entry);  // its place is its number
+      later_.push_back(entry);  // its index is its number
       sift_up(entry);
       return;
     }
@@ -138,7 +138,7 @@ class OpenList {
   }
 
   ArenaVector<Entry> heap_;           ///< the bucket at current_ and all before it
-  ArenaVector<Entry> later_;          ///< all that were pushed
+  ArenaVector<Entry> later_;          ///< all entries pushed
   ArenaVector<std::uint32_t> heads_;  ///< by bucket: its newest entry in later_
   double least_f_ = 0;
   double buckets_per_unit_ = 1;

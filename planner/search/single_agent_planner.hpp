@@ -1,6 +1,5 @@
-// What prioritized planning asks of a planner for one robot. Start-safe intervals
-// and re-scheduling work through this interface alone, so they go with any
-// planner that can respect a ReservationTable.
+// What prioritized planning needs from a planner for one robot. Start-safe intervals and re-scheduling use
+// only this interface, so they work with any planner that can respect a ReservationTable.
 #pragma once
 
 #include <algorithm>
@@ -40,20 +39,20 @@ struct SearchStatistics {
 struct SearchLimits {
   std::uint64_t max_expansions = UINT64_MAX;
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  /// Set from outside, by a signal for one: asks to end as a deadline does.
+  /// Set from outside, for example by a signal: ends the search like a deadline.
   const std::atomic<bool>* stop = nullptr;
-  /// Trajectories that arrive later are of no use: a search may end with kNoPath as soon
-  /// as its heuristic leaves room for no earlier one.
+  /// Later arrivals are of no use: a search may end with kNoPath as soon as its heuristic rules out an
+  /// arrival by this time.
   double latest_arrival_s = kForever;
 
-  /// Whether the deadline has passed or somebody asked to end.
+  /// Whether the deadline has passed or `stop` is set.
   bool is_over() const {
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
            (deadline && std::chrono::steady_clock::now() >= *deadline);
   }
 };
 
-/// What a ReservationTable is to know of the robots of an instance.
+/// What a ReservationTable must know about an instance's robots.
 inline Askers askers_of(const Instance& instance, const MotionRules& rules = {}) {
   Askers askers{largest_radius_cells(instance) + rules.inflate_distance_cells, 0, rules.inflate_time_s};
   for (const Agent& agent : instance.agents) {
@@ -67,9 +66,8 @@ class SingleAgentPlanner {
  public:
   virtual ~SingleAgentPlanner() = default;
 
-  /// A trajectory for `agent` of the instance given at construction that collides
-  /// with nothing in `reservations`, or the reason why none was found. Adds its
-  /// work to `statistics`, whatever the outcome.
+  /// A trajectory for `agent` of the instance given at construction that collides with nothing in
+  /// `reservations`, or the reason why none was found. Adds its work to `statistics` in every case.
   virtual Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
                                                  const SearchLimits& limits,
                                                  SearchStatistics& statistics) = 0;

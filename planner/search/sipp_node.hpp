@@ -17,16 +17,16 @@ inline constexpr NodeId kNoNode = UINT32_MAX;
 struct alignas(64) SippNode {
   SafeInterval interval;
   double arrival_s = kForever;  ///< earliest known; kForever: not reached yet
-  double departure_s = 0;       ///< when the parent is left to arrive then
-  double to_goal_s = 0;         ///< the heuristic: at most the time by steps from here to the goal, weighted
-  /// No departure before this is safe on the straight way from `way_from`, unless that node was reached
-  /// earlier since. Several neighbours of a cell have the same parent.
+  double departure_s = 0;       ///< from the parent, to arrive then
+  double to_goal_s = 0;         ///< weighted heuristic: at most `weight` times the time by steps to the goal
+  /// No earlier departure is safe for the straight move from `way_from`, unless that node's arrival fell
+  /// since. Several neighbours of a cell have the same parent.
   double way_departure_s = 0;
   std::int16_t x = 0;
   std::int16_t y = 0;
   NodeId parent = kNoNode;
   NodeId way_from = kNoNode;
-  std::uint16_t version = 0;  ///< how often the arrival fell; the last value stands for more as well
+  std::uint16_t version = 0;  ///< how often the arrival fell; stops at kLastVersion
   std::uint16_t way_version = 0;
 
   Cell cell() const { return {x, y}; }

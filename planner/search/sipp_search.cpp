@@ -1,21 +1,21 @@
-// SIPP in twenty lines. A state is a cell together with one of its safe intervals, the maximal closed spans
-// of time in which the robot may stay there; of all arrivals in one interval the earliest is the best, since
-// whoever comes early can wait. So A* runs over a small graph although time is continuous: g is the arrival,
-// h the time to the goal at least, and OPEN is ordered by f = g + weight * h.
+// SIPP in twenty lines. A state is a cell with one of its safe intervals, the maximal closed spans of time in
+// which the robot may stay there. The earliest arrival in an interval is the best, since a robot that comes
+// early can wait. So A* searches a small graph although time is continuous: g is the arrival, h a lower bound
+// on the time to the goal, and OPEN is ordered by f = g + weight * h.
 //
-// Successors are lazy. An expanded node offers its neighbours with the arrival that no obstacle delays; only
-// when such an entry comes up is the reservation table asked for the earliest safe departure. If the arrival
-// is as early as offered the node is expanded at once, else it is queued again with what it is worth. Most
-// entries never come up.
+// Successors are lazy. An expanded node offers its neighbours with the arrival that no obstacle delays. The
+// reservation table is asked for the earliest safe departure only when such an entry is popped. If the
+// arrival is as early as offered, the node is expanded at once; otherwise it is queued again with its true
+// arrival. Most entries are never popped.
 //
-// At any angle a node also offers each neighbour straight from its own parent [YA17]. Of two ways that arrive
-// together the one over the nearer node is kept. From each expanded node the goal is tried straight (the goal
-// shot): nothing in OPEN is smaller than its f, so a shot that is not delayed ends the search.
+// In any-angle search a node also offers each neighbour straight from its own parent [YA17]. If both moves
+// arrive together, the one from the nearer node is kept. Each expanded node tries the straight move to the
+// goal (the goal shot): nothing in OPEN has a smaller f, so a shot that is not delayed ends the search.
 //
-// What is guaranteed, with h a lower bound on ways by steps: nobody arrives later than `weight` times the
-// earliest arrival by steps alone, for each state of the earliest way by steps is offered no later than on
-// it. Ways that are found are safe against all that is reserved, contacts included. Same input, same way.
-// Departures from [YA17]: they are exact, not tried in steps.
+// Guaranteed, with h a lower bound on paths by steps: the robot arrives no later than `weight` times the
+// earliest arrival by steps alone, since each state of that earliest path is offered no later than on it.
+// Every path found is safe against all that is reserved, contacts included. Same input, same path.
+// Differs from [YA17]: departure times are exact, not tried in steps.
 //
 // Robots with headings have more states (motion.hpp); the search is the same.
 #include "planner/search/sipp_search.hpp"
@@ -28,29 +28,30 @@
 namespace sipplab {
 namespace {
 
-/// Width of a bucket of OPEN, in cells of way: small enough that few entries are sorted for
-/// nothing, wide enough that few buckets are empty.
+/// Width of a bucket of OPEN, in cells of travel: small enough that few entries are sorted for nothing, wide
+/// enough that few buckets are empty.
 constexpr double kBucketCells = 0.03;
 
-/// What a robot that does not turn has ahead by any angle is estimated so many times as long as it is, but
-/// never longer than steps take at least: the guarantee for paths by steps stays, and fewer nodes are
-/// expanded. (Trials on the paper's instances: 1.05 expands 0.79 to 1.01 times as many nodes, on a map of 256
-/// x 256 cells a third, and loses none of the flowtime that pulling tight gains; 1.1 loses 0.2 to 0.3 %.)
+/// In any-angle search without turns the heuristic is stretched by this factor, but never beyond the lower
+/// bound on paths by steps: the guarantee for these stays, and fewer nodes are expanded. (Trials on the
+/// paper's instances: 1.05 expands 0.79 to 1.01 times as many nodes, a third on a map of 256 x 256 cells, and
+/// loses none of the flowtime that pulling tight gains; 1.1 loses 0.2 to 0.3 %.)
 constexpr double kStretch = 1.05;
 
-/// Seconds. Sums of durations along a way fall short of the straight one by roundings, at most by so much.
+/// Seconds. By rounding, durations along a path may sum to less than the straight one, at most by this.
 constexpr double kSoonerS = 1e-6;
 
-/// Pulling tight tries ways to the 8th stop and nearer ones, and moves bends to one of 2^3 neighbours, where
-/// the time from the stop before to the one behind is that of travel, or little more: whoever waits is not
-/// sooner by another bend. (Trials on the paper's instances: all bends twice cost 15 % of the instructions
-/// instead of 5, for as much flowtime.) An arrival counts as earlier by so many seconds.
+/// Pulling tight tries straight moves to the 8th next stop and nearer ones. It moves turning points to one of
+/// 2^3 neighbours if the time from the stop before to the one after is that of travel, or little more: a
+/// robot that waits gains nothing from another turning point. (Trials on the paper's instances: all turning
+/// points twice cost 15 % of the instructions instead of 5, for as much flowtime.) An arrival counts as
+/// earlier if it gains kWorthS.
 constexpr std::size_t kFarthestStop = 8;
 constexpr int kStepsAside = 3;
 constexpr double kMostWaiting = 1.05;
 constexpr double kWorthS = 1e-6;
 
-/// Expansions between two looks at the clock; one takes some microseconds.
+/// Expansions between two looks at the clock; an expansion takes some microseconds.
 constexpr std::uint64_t kExpansionsPerLook = 64;
 
 }  // namespace
@@ -90,7 +91,7 @@ Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, Reservati
   const std::uint64_t expansions_before = statistics.expansions;
   while (!open_.empty()) {
     const OpenList::Entry entry = open_.pop_min();
-    // No entry has a smaller f, and nobody arrives by steps before f / weight.
+    // No entry has a smaller f, and no path by steps arrives before f / weight.
     if (entry.f > options_.weight * limits.latest_arrival_s) return Unexpected{PlanFailure::kNoPath};
     if (is_overtaken(entry)) continue;
     NodeId id = entry.node;
@@ -150,7 +151,7 @@ const typename Sipp<Motion>::CellNodes& Sipp<Motion>::lay_out(Cell cell) {
   node.y = static_cast<std::int16_t>(cell.y);
   const double soonest_s = seconds(distance(agent_->start, cell)) - kSoonerS;
   for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
-    if (interval.end_s < soonest_s) continue;  // nobody comes in time
+    if (interval.end_s < soonest_s) continue;  // no arrival in time
     node.interval = interval;
     if constexpr (Motion::kTurns) node.first = static_cast<NodeId>(nodes_.size());
     nodes_.push_back(node);
@@ -162,7 +163,7 @@ const typename Sipp<Motion>::CellNodes& Sipp<Motion>::lay_out(Cell cell) {
 template <class Motion>
 double Sipp<Motion>::heuristic_s(Cell cell) {
   const double line = line_cells(cell, agent_->goal);
-  // The start is expanded first whatever it says, and is often the only one.
+  // The start is expanded first in any case, and is often the only node.
   if (!options_.detours || cell == agent_->start) return seconds(line);
   const double detour = body_->detour_cells(cell);
   if (!options_.any_angle) return seconds(line + detour);
@@ -176,7 +177,7 @@ bool Sipp<Motion>::is_overtaken(const OpenList::Entry& entry) const {
   if (!entry.is_lazy()) return entry.arrival_s > motion_.known_s(nodes_, entry.node, motion_.heading(node));
   const double known_s = motion_.known_s(nodes_, entry.node, heading_of(nodes_[entry.from], node));
   if (entry.arrival_s != known_s) return entry.arrival_s > known_s;
-  // By steps along a straight line one may arrive sooner, by a rounding, and that way is kept.
+  // Steps along a straight line may arrive sooner by rounding, and are then kept.
   return entry.parent == kNoNode || !is_on_the_way(nodes_[entry.parent], nodes_[entry.from], node);
 }
 
@@ -214,13 +215,13 @@ void Sipp<Motion>::expand(NodeId id) {
     }
     Way straight = way(parent, cell, distance(there, cell));
     if constexpr (Motion::kTurns) {
-      // The two arrive with two headings: each is a successor of its own.
+      // The two arrive with different headings: each is a separate successor.
       offer(step, kNoNode, targets.first, targets.last);
       if (body_->line_of_sight.is_clear(there, cell)) {
         offer(straight, kNoNode, targets.first, targets.last);
       }
     } else {
-      // By the triangle inequality nobody arrives sooner than straight from the parent, seen or not.
+      // By the triangle inequality the step is never sooner than the straight move, clear or not.
       straight.latest_s = std::max(step.latest_s, straight.latest_s);
       NodeId target = targets.first;
       while (target != targets.last && !may_gain(target, straight.heading, straight.soonest_s)) ++target;
@@ -252,14 +253,14 @@ void Sipp<Motion>::offer(const Way& way, NodeId parent, NodeId target, NodeId la
 
 template <class Motion>
 NodeId Sipp<Motion>::evaluate(NodeId from, NodeId parent, NodeId id) {
-  // Of two ways that arrive together the one over the nearer node is kept: it leaves the
-  // cells behind it sooner (trials on the paper's warehouse: 1 % less flowtime).
+  // If both moves arrive together, the one from the nearer node is kept: it leaves the cells behind it sooner
+  // (trials on the paper's warehouse: 1 % less flowtime).
   const bool on_the_way = parent != kNoNode && is_on_the_way(nodes_[parent], nodes_[from], nodes_[id]);
   NodeId reached = kNoNode;
   if (parent != kNoNode && !on_the_way) reached = arrive_straight(parent, id);
   const NodeId by_step = arrive_by_step(from, id, reached == kNoNode ? Tie::kKeep : Tie::kReplace);
   if (by_step != kNoNode) reached = by_step;
-  // Without a wait the step is as good as the straight way.
+  // Without a wait the step is as good as the straight move.
   if (on_the_way && (by_step == kNoNode || nodes_[by_step].departure_s != nodes_[from].arrival_s)) {
     if (const NodeId straight = arrive_straight(parent, id); straight != kNoNode) reached = straight;
   }
@@ -309,7 +310,7 @@ bool Sipp<Motion>::leg(const Node& from, const Node& to, double known_s, double 
                   agent_->speed_cells_per_s);
   departure_s = reservations_->earliest_departure(move, moving_radius_, from_s, until_s, likely_blocker);
   if (departure_s > until_s || departure_s == kForever) {
-    departure_s = until_s;  // how much later depends on who is met first
+    departure_s = until_s;  // how much later depends on the disk met first
     return false;
   }
   arrival_s = std::max(departure_s + duration_s, to.interval.begin_s);
@@ -414,7 +415,7 @@ bool Sipp<Motion>::reroute(Stops& stops, std::size_t i, std::size_t k, Node* ben
     from = bend;
   }
   if (!move(*from, last, latest_s, &shot_blocker_)) return false;
-  if constexpr (Motion::kTurns) {  // facing another way, it may set off later although it came sooner
+  if constexpr (Motion::kTurns) {  // with another heading it may depart later although it came sooner
     const auto done_s = [&](const Node& stop) {
       return stop.arrival_s + motion_.standing_s(agent_->goal, motion_.heading(stop));
     };
@@ -430,7 +431,7 @@ bool Sipp<Motion>::reroute(Stops& stops, std::size_t i, std::size_t k, Node* ben
     stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                 stops.begin() + static_cast<std::ptrdiff_t>(k));
   }
-  // What comes behind is left as early as is safe.
+  // Later stops are left as early as is safe.
   for (std::size_t to = i + (bend != nullptr ? 3 : 2); to < stops.size(); ++to) {
     const double departed_s = stops[to].departure_s;
     if (!move(stops[to - 1], stops[to], stops[to].arrival_s) || stops[to].departure_s == departed_s) break;

@@ -1,4 +1,4 @@
-// Names for contents; see digest.hpp.
+// Digests of contents; see digest.hpp.
 #include "planner/solution/digest.hpp"
 
 #include <xxhash.h>
@@ -33,7 +33,7 @@ void Digest::add(const Trajectory& trajectory) {
     add(motion.end_s);
     add(motion.from);
     add(motion.to);
-    if (motion.turn_to_deg) {  // plans without turns keep the names that they had before there were any
+    if (motion.turn_to_deg) {  // plans without turns keep the digests from before there were any
       add(std::string_view("turn"));
       add(*motion.turn_to_deg);
     }

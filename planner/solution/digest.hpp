@@ -1,4 +1,4 @@
-// Names for contents: the same numbers give the same 128-bit digest on every
+// Digests of contents: the same numbers give the same 128-bit digest on every
 // machine, whatever its byte order.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace sipplab {
 
-/// Collects values as little-endian bytes and names them all (XXH3, 128 bits).
+/// Collects values as little-endian bytes and hashes them all (XXH3, 128 bits).
 class Digest {
  public:
   /// `domain` keeps the digests of different kinds of content apart; its number
@@ -22,7 +22,7 @@ class Digest {
   /// The exact bits, except that -0 counts as 0: equal numbers, equal digests.
   void add(double value);
   void add(Cell cell);
-  /// Length first, so that no two sequences of texts look alike.
+  /// Length first, so that no two sequences of texts give the same bytes.
   void add(std::string_view text);
   void add(const Trajectory& trajectory);
 

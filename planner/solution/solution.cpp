@@ -1,4 +1,4 @@
-// What a solution costs, and its name; see solution.hpp.
+// What a solution costs, and its hash; see solution.hpp.
 #include "planner/solution/solution.hpp"
 
 #include <algorithm>

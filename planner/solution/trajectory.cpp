@@ -8,8 +8,8 @@
 namespace sipplab {
 namespace {
 
-/// Relative difference of speeds, of 1. Above the rounding of times of 1e5 s, which is 1e-11 s for a step of
-/// 1 s; far below any difference of speeds that a plan would use.
+/// Relative difference of speeds, no unit. Above the rounding of times of 1e5 s, which is 1e-11 s for a step
+/// of 1 s; far below any difference of speeds that a plan would use.
 constexpr double kSameSpeed = 1e-9;
 
 bool is_plain_wait(const TimedMotion& motion) { return motion.is_wait() && !motion.is_turn(); }
@@ -24,7 +24,7 @@ bool continues(const TimedMotion& motion, const TimedMotion& next) {
   const std::int64_t bx = next.to.x - next.from.x;
   const std::int64_t by = next.to.y - next.from.y;
   if (ax * by != ay * bx || ax * bx + ay * by <= 0) return false;
-  // Of two motions in one direction, cells are to cells as seconds are to seconds.
+  // In one direction at one speed, seconds are proportional to cells.
   const double expected_s = (motion.end_s - motion.begin_s) *
                             static_cast<double>(std::abs(bx) + std::abs(by)) /
                             static_cast<double>(std::abs(ax) + std::abs(ay));

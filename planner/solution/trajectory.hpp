@@ -10,13 +10,13 @@
 namespace sipplab {
 
 /// A straight motion at constant speed from one cell centre to another, or a
-/// wait where the two are equal. Times in seconds of plan time.
+/// wait if the two are equal. Times in seconds of plan time.
 struct TimedMotion {
   double begin_s = 0;
   double end_s = 0;
   Cell from;
   Cell to;
-  /// Of a wait that is a turn in place: the heading at its end, in degrees as
+  /// For a wait that is a turn in place: the heading at its end, in degrees as
   /// Agent::start_heading_deg counts them. None for any other motion.
   std::optional<double> turn_to_deg = std::nullopt;
 
@@ -26,24 +26,24 @@ struct TimedMotion {
   friend bool operator==(const TimedMotion&, const TimedMotion&) = default;
 };
 
-/// Motions follow each other without gap in time or place; the first begins at
+/// Motions follow each other without a gap in time or place; the first begins at
 /// time 0 in `start`. A robot that never leaves its start has no motions.
 struct Trajectory {
   Cell start;
   std::vector<TimedMotion> motions;
 
   Cell end() const { return motions.empty() ? start : motions.back().to; }
-  /// When the last motion ends, be it a wait, in seconds; 0 without motions. Before it the robot is where its
-  /// motions say, from then on at rest.
+  /// When the last motion ends, even a wait, in seconds; 0 without motions. Until then the robot follows its
+  /// motions, and from then on it is at rest.
   double end_s() const { return motions.empty() ? 0.0 : motions.back().end_s; }
   /// When the last stay begins, in seconds: the end of the last move or turn, 0 for a robot that never does
-  /// either. Waits that are written down after it change nothing.
+  /// either. Waits after it change nothing.
   double arrival_s() const;
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
 
-/// The same motion in the fewest pieces: waits that follow each other are one wait, moves straight on at the
-/// same speed are one move, and there is no wait at the end. Equal for every notation of a motion.
+/// The same motion in the fewest pieces: consecutive waits are one wait, consecutive moves in one direction
+/// at the same speed are one move, and there is no wait at the end. Equal for every notation of a motion.
 Trajectory canonical(const Trajectory& trajectory);
 
 }  // namespace sipplab
