@@ -24,7 +24,8 @@ bool is_shown_by(const std::string& text, const sipplab::GridMap& map) {
     if (!(lines >> row) || row.size() != static_cast<std::size_t>(map.width())) return false;
     for (std::int32_t x = 0; x < map.width(); ++x) {
       const char shown = row[static_cast<std::size_t>(x)];
-      if (map.is_blocked({x, y}) == (shown == '.' || shown == 'G' || shown == 'S')) return false;
+      if (map.is_blocked({x, y}) == (shown == '.' || shown == 'G' || shown == 'S' || shown == 'E'))
+        return false;
     }
   }
   return !(lines >> word);
