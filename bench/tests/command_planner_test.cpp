@@ -18,8 +18,6 @@
 namespace sipplab::bench {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string name_of(const std::string& command) {
   const auto spec = parse_command_planner("cmd:" + command, "");
   return spec ? spec->name : "refused: " + spec.error();
@@ -47,10 +45,11 @@ TEST(CommandPlanner, IsCalledAfterTheScriptThatAnInterpreterRuns) {
   EXPECT_EQ(name_of("java -jar planner.jar {scen}"), "planner.jar");
   EXPECT_EQ(name_of("python3 -c 'print(1)' {scen}"), "python3");
   // Of two words the one that is a file: -W takes a word.
-  const fs::path script = fs::temp_directory_path() / "command_planner_test.py";
+  const auto folder = TemporaryFolder::make();  // of its own: tests run side by side
+  ASSERT_TRUE(folder.has_value());
+  const std::filesystem::path script = folder->path() / "planner.py";
   std::ofstream(script) << "\n";
-  EXPECT_EQ(name_of("python3 -W ignore " + script.string() + " {scen}"), "command_planner_test.py");
-  fs::remove(script);
+  EXPECT_EQ(name_of("python3 -W ignore " + script.string() + " {scen}"), "planner.py");
 }
 
 TEST(CommandPlanner, AProgramThatIsNotThereIsRefused) {
