@@ -90,17 +90,28 @@ bool Sweep::begin() {
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
 Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
-                                                     const SweepCase& parameters) const {
+                                                     const SweepCase& parameters) {
   if (!prepared.broken.empty()) {
     db::ResultRow row;
     row.message = prepared.broken;
     return row;
   }
-  if (command_) return command_->run(prepared.instance, parameters.options);
+  const LowerBound& bound = bound_of(prepared, parameters.options);
   const PeakMemory memory;
-  db::ResultRow row = run_instance(prepared.instance, parameters.options);
-  row.peak_memory_bytes = memory.bytes();
+  Expected<db::ResultRow, std::string> row = command_ ? command_->run(prepared.instance, parameters.options)
+                                                      : run_instance(prepared.instance, parameters.options);
+  if (!row) return row;
+  if (!command_) row->peak_memory_bytes = memory.bytes();
+  row->flowtime_bound_s = bound.flowtime_s;
+  row->makespan_bound_s = bound.makespan_s;
   return row;
+}
+
+const LowerBound& Sweep::bound_of(const PreparedInstance& prepared, const PlannerOptions& options) {
+  const auto [bound, is_new] =
+      bounds_.try_emplace({&prepared, options.any_angle, options.any_angle ? 0 : options.connectedness});
+  if (is_new) bound->second = lower_bound(prepared.instance, options.any_angle, options.connectedness);
+  return bound->second;
 }
 
 void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counters) {

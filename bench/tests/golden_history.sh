@@ -64,7 +64,7 @@ for version in 1 2 3 4 5 6 7 8 9 10; do
       SELECT (SELECT max(id) FROM run), case_id, finished_utc, result_count FROM cell WHERE run_id = 2;
     INSERT INTO result SELECT new.id, instance_id, position, repetition,
              iif($version > 5 AND position = 0, 1, status), planning_time_ns, makespan_s, flowtime_s, tries, expansions,
-             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions
+             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns
       FROM cell AS old JOIN result ON result.cell_id = old.id
       JOIN cell AS new ON new.case_id = old.case_id AND new.run_id = (SELECT max(id) FROM run) WHERE old.run_id = 2;"
 done
@@ -86,7 +86,7 @@ equal "$(grep -cE '^[01][0-9]0{8}\+? ' out)" 10 "versions in the table"
 grep -oE '^[01][0-9]0{8}\+? ' out | sort -c || complain "versions are not in the order of commits"
 expect 0 trend success --svg trend.svg --json
 says '"after": 0.666'
-says '<polyline' trend.svg
+says '<path' trend.svg
 says '</svg>' trend.svg
 expect 0 trend runtime --rows 3
 expect 0 trend success --case 1 --min-effect 0.5
@@ -120,6 +120,16 @@ fi
 expect 0 report -o report --json
 says '"base"'
 refused 'expected latest, a UUID' report xyz -o report
+# Two runs of one program: plans are equal, times are not, and no test judges those. Nothing is marked.
+rm -rf one.db two
+bench --db one.db
+bench --db one.db
+ask "UPDATE result SET planning_time_ns = planning_time_ns * 3 WHERE cell_id IN (SELECT id FROM cell WHERE run_id = 2)" one.db
+expect 0 doctor --fix --db one.db
+expect 0 report --db one.db -o two
+says 'same: all [0-9]+ plannings' two/index.html
+sed -n '/id="base"/,/id="trends"/p' two/index.html >part
+grep -nE 'class="[^"]*(bad|good)' part >marked && complain "something is marked between two runs of one program: $(head -3 marked)"
 refused 'is a file|File exists|Not a directory|expected a folder' report -o trend.svg/x
 
 # --- imports -----------------------------------------------------------------------------
@@ -196,6 +206,20 @@ refused 'parameter @x, expected one that begins with a colon' sql 'SELECT @x'
 refused 'parameter y, expected one that stands as :y' sql 'SELECT 1' --param y=1
 refused "expected NAME=VALUE" sql 'SELECT 1' --param y
 refused 'no query' sql
+printf -- '-- from a file\nSELECT 40 + :y AS from_file;\n' >q.sql
+expect 0 sql --file q.sql --param y=2 --format csv
+says '^42'
+"$sipplab" sql --format csv <q.sql >out 2>err --param y=3 || complain "sql does not read standard input: $(cat err)"
+says '^43'
+"$sipplab" sql - --format csv <q.sql >out 2>err --param y=4 || complain "sql - does not read standard input: $(cat err)"
+says '^44'
+refused 'none.sql' sql --file none.sql
+refused 'no query' sql --file /dev/null
+# Who has seen enough goes away: no word about it, and the code of a program that a pipe ends.
+pipe_code=$({ "$sipplab" sql --format csv "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300000) SELECT * FROM n" 2>err
+  echo $? >&3; } 3>&1 >&4 4> >(head -1 >/dev/null))
+equal "$(wc -c <err)" 0 'words about a closed pipe'
+equal "$pipe_code" 141 'exit code with a closed pipe'
 refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.

@@ -164,4 +164,20 @@ LowerBound lower_bound(const std::vector<double>& static_times_s) {
   return bound;
 }
 
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness) {
+  LinesOfSight lines_of_sight(instance.map);
+  std::vector<double> solo_cells;
+  for (const Agent& agent : instance.agents) {
+    const double straight = distance(agent.start, agent.goal);
+    const LineOfSight& sight = lines_of_sight.of(agent.radius_cells);
+    double cells = straight;
+    if (!sight.is_clear(agent.start, agent.goal)) {
+      cells = shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
+    }
+    // Large bodies may have a path and no steps: a straight line is a bound for them, too.
+    solo_cells.push_back(cells == kForever ? straight : cells);
+  }
+  return lower_bound(static_times_s(instance, any_angle, connectedness, solo_cells));
+}
+
 }  // namespace sipplab

@@ -43,4 +43,7 @@ double gap(double cost_s, double bound_s);
 
 LowerBound lower_bound(const std::vector<double>& static_times_s);
 
+/// That of an instance of which there is no plan, by the moves that are allowed.
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness);
+
 }  // namespace sipplab
