@@ -33,8 +33,7 @@ constexpr double kTitleSize = 13;
 /// Width of a letter of the title, as a share of its size; pixels left free beside it.
 constexpr double kTitleLetter = 0.6;
 constexpr double kTitleMargin = 20;
-/// Letters of a line of the caption.
-constexpr std::size_t kCaptionLine = 100;
+constexpr double kCaptionLetter = 4.8;
 constexpr double kPixelsPerInch = 100;
 constexpr const char* kNoGnuplot =
     "sipplab: no program gnuplot here, expected it for pictures: apt-get install gnuplot-nox";
@@ -133,9 +132,10 @@ class Script {
     const double letters = kTitleLetter * static_cast<double>(chart_.title.size() + 1);
     const double size = std::min(kTitleSize, (chart_.width - kTitleMargin) / letters);
     std::string_view rest = chart_.caption;
+    const auto most = static_cast<std::size_t>((chart_.width - kTitleMargin) / kCaptionLetter);
     std::vector<std::string> lines;
     while (!rest.empty()) {
-      std::size_t end = rest.size() > kCaptionLine ? rest.rfind(' ', kCaptionLine) : rest.size();
+      std::size_t end = rest.size() > most ? rest.rfind(' ', most) : rest.size();
       if (end == std::string_view::npos) end = rest.size();
       lines.emplace_back(rest.substr(0, end));
       rest.remove_prefix(std::min(rest.size(), end + 1));
@@ -181,6 +181,11 @@ class Script {
       }
     }
     if (!is_empty(chart_)) ranges(x, y);
+    constexpr double kBesideBoxes = 0.6;
+    if (chart_.box_width > 0 && !chart_.x_ticks.empty()) {
+      range("x", format_real(chart_.x_ticks.front().first - kBesideBoxes),
+            format_real(chart_.x_ticks.back().first + kBesideBoxes));
+    }
     line(chart_.log_x || chart_.diagonal ? "set offsets 0,0,0,0"
                                          : "set offsets graph 0.02, graph 0.02, 0, 0");
     if (!chart_.x_ticks.empty()) ticks();
@@ -188,20 +193,30 @@ class Script {
   }
 
   void ranges(const ChartRange& x, const ChartRange& y) {
-    // Gnuplot would widen a logarithmic axis to whole powers of ten.
+    if (chart_.log_x) log_range("x", x, {}, {});
+    if (chart_.log_y) return log_range("y", y, chart_.y_min, chart_.y_max);
+    range("y", chart_.y_min ? format_real(*chart_.y_min) : "*",
+          chart_.y_max ? format_real(*chart_.y_max) : "*");
+  }
+
+  /// Gnuplot would widen a logarithmic axis to whole powers of ten, and put ticks at those alone.
+  void log_range(const char* axis, const ChartRange& values, const std::optional<double>& least,
+                 const std::optional<double>& most) {
     constexpr double kBeyond = 1.25;
-    if (chart_.log_x) {
-      line("set logscale x");
-      range("x", format_real(x.low / kBeyond), format_real(x.high * kBeyond));
+    constexpr double kFewPowers = 100;
+    const double low = least.value_or(values.low / kBeyond);
+    const double high = most.value_or(values.high * kBeyond);
+    line(fmt::format("set logscale {}", axis));
+    range(axis, format_real(low), format_real(high));
+    if (high / low >= kFewPowers) return;
+    std::string list;
+    for (double power = std::pow(10, std::floor(std::log10(low))); power <= high; power *= 10) {
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", short_number(factor * power),
+                            format_real(factor * power));
+      }
     }
-    if (chart_.log_y) line("set logscale y");
-    range("y",
-          chart_.y_min   ? format_real(*chart_.y_min)
-          : chart_.log_y ? format_real(y.low / kBeyond)
-                         : "*",
-          chart_.y_max   ? format_real(*chart_.y_max)
-          : chart_.log_y ? format_real(y.high * kBeyond)
-                         : "*");
+    line(fmt::format("set {}tics ({})", axis, list));
   }
 
   void range(const char* axis, const std::string& low, const std::string& high) {
@@ -459,20 +474,25 @@ Expected<std::vector<std::string>, std::string> pictures_of(const std::vector<Ch
   if (auto error = find_gnuplot_error()) return Unexpected{std::move(*error)};
   auto folder = TemporaryFolder::make();
   if (!folder) return Unexpected{std::move(folder.error())};
-  std::string script;
+  // A process for each: what one picture sets could show in the next.
+  std::vector<std::string> command{"/bin/sh", "-c", "for script; do gnuplot -d \"$script\" || exit; done",
+                                   "sh"};
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    script += gnuplot_script(charts[i], format, (folder->path() / std::to_string(i)).string());
+    const std::string picture = (folder->path() / std::to_string(i)).string();
+    command.push_back(picture + ".script");
+    const std::string script = gnuplot_script(charts[i], format, picture);
+    if (const auto error = write_file(command.back(), script)) return Unexpected{error->message()};
   }
-  const std::string file = (folder->path() / "script").string();
-  if (const auto error = write_file(file, script)) return Unexpected{error->message()};
   const std::filesystem::path log = folder->path() / "log";
-  // Files of its user would change the pictures.
+  // Files and language of its user would change the pictures.
   const ProgramRun run =
-      run_program({"/bin/sh", "-c", "exec gnuplot -d \"$0\"", file}, {.log = log, .all_to_log = true});
+      run_program(command, {.environment = {"LC_ALL=C.UTF-8"}, .log = log, .all_to_log = true});
   if (run.exit_code != 0) {
-    const auto words = read_text(log.string());
-    return Unexpected{fmt::format("sipplab: gnuplot failed: {}",
-                                  words ? words.value().substr(0, 400) : std::string("without a word"))};
+    constexpr std::size_t kLastWords = 200;
+    const auto said = read_text(log.string());
+    const std::string words = said ? *said : "";
+    return Unexpected{"sipplab: gnuplot failed: " +
+                      words.substr(words.size() - std::min(words.size(), kLastWords))};
   }
   for (std::size_t i = 0; i < charts.size(); ++i) {
     auto picture = read_file((folder->path() / std::to_string(i)).string());

@@ -216,10 +216,10 @@ says '^44'
 refused 'none.sql' sql --file none.sql
 refused 'no query' sql --file /dev/null
 # Who has seen enough goes away: no word about it, and the code of a program that a pipe ends.
-pipe_code=$({ "$sipplab" sql --format csv "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300000) SELECT * FROM n" 2>err
-  echo $? >&3; } 3>&1 >&4 4> >(head -1 >/dev/null))
-equal "$(wc -c <err)" 0 'words about a closed pipe'
-equal "$pipe_code" 141 'exit code with a closed pipe'
+"$sipplab" sql --format csv "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300000) SELECT * FROM n" 2>err |
+  head -1 >/dev/null
+equal "${PIPESTATUS[0]}" 141 'exit code with a closed pipe'
+equal "$(cat err)" '' 'words about a closed pipe'
 refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.
@@ -227,7 +227,7 @@ questions=0
 while IFS= read -r line; do
   questions=$((questions + 1))
   bash -c "$line" >out 2>err </dev/null || complain "the cookbook's '$line': $(head -c 300 err)"
-  [[ $line == *property* || $line == *finding* || $line == *v_progress* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
+  [[ $line == *property* || $line == *finding* || $line == *v_progress* || $line == *" plot "* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
 done < <(sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p' "$cookbook")
 [ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
 
