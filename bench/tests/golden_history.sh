@@ -49,6 +49,9 @@ refused 'none.db: no such file' merge none.db --db fresh.db
 
 rm -f sipplab.db*
 for _ in 1 2; do bench; done
+equal "$(ask "SELECT count(*) > 0, sum(flowtime_bound_s IS NULL), sum(status = 'solved' AND flowtime_gap IS NULL), sum(cpu_time_s IS NULL),
+  sum(flowtime_s < flowtime_bound_s - 1e-9), sum(makespan_s < makespan_bound_s - 1e-9) FROM v_results")" '1|0|0|0|0|0' \
+  'bounds of every instance that was planned, below every cost; processor time of every planning'
 # Ten more versions of the newest run, of which the last five solve one instance less, measured in some
 # other order. Plain SQL, as a user would: the doctor has to notice that summaries are missing.
 for version in 1 2 3 4 5 6 7 8 9 10; do

@@ -116,6 +116,9 @@ TEST_F(Asking, a_bound_is_of_the_instance_and_the_moves_and_the_greatest_stands)
                 "FROM instance_bound"),
             "1|990.0|31.0")
       << "any-angle moves do not depend on steps";
+  better.flowtime_bound_s = 700;
+  record(other_steps, {better});
+  EXPECT_EQ(ask(file, "SELECT flowtime_bound_s FROM instance_bound"), "990.0") << "by less work, as true";
   CaseInfo on_grid = other_steps;
   on_grid.options["any_angle"] = std::int64_t{0};
   better.flowtime_bound_s = 995;
