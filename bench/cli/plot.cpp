@@ -1,4 +1,6 @@
 // sipplab plot: one picture from the history.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -133,15 +135,19 @@ Command add_plot_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("plot", "one picture from the history, as SVG or PDF, by gnuplot");
   std::vector<std::string> names{kFigure, kTable};
-  std::string words = "one of:";
+  std::string footer = "Pictures:\n";
+  const auto list = [&footer](const std::string& name, const std::string& shows) {
+    footer += fmt::format("  {:<18}{}\n", name, shows);
+  };
   for (const Picture& picture : kPictures) {
     names.emplace_back(picture.name);
-    words += std::string("\n") + picture.name + ": " + picture.shows;
+    list(picture.name, picture.shows);
   }
-  words +=
-      "\nfigure1: share solved over robots, a line for each start-safe interval\n"
-      "table1: seconds in the warehouse beside the paper's";
-  command->add_option("picture", arguments->kind, words)->required()->check(CLI::IsMember(names));
+  list(kFigure, "of the paper: share solved over robots, a line for each start-safe interval");
+  list(kTable, "of the paper: seconds in the warehouse beside the paper's");
+  command->footer(
+      footer + "Times, flowtimes and makespans are of solved results; hollow: fewer than half are solved.");
+  command->add_option("picture", arguments->kind, "what to draw")->required()->check(CLI::IsMember(names));
   command
       ->add_option("run,--run", arguments->runs,
                    "UUID, its first four or more digits, or latest; several beside each other")

@@ -209,9 +209,13 @@ class Script {
     line(fmt::format("set logscale {}", axis));
     range(axis, format_real(low), format_real(high));
     if (high / low >= kFewPowers) return;
+    constexpr double kHardlyAny = 8;
+    const std::vector<double> factors = high / low < kHardlyAny
+                                            ? std::vector<double>{1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9}
+                                            : std::vector<double>{1, 2, 5};
     std::string list;
     for (double power = std::pow(10, std::floor(std::log10(low))); power <= high; power *= 10) {
-      for (const double factor : {1.0, 2.0, 5.0}) {
+      for (const double factor : factors) {
         list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", short_number(factor * power),
                             format_real(factor * power));
       }
@@ -242,6 +246,11 @@ class Script {
           fmt::format("{}{} {}", list.empty() ? "" : ", ", fits ? quoted(words) : "''", format_real(value));
     }
     line("set xtics (" + list + ")");
+    // Room for the half of the last label that stands beside the plot.
+    constexpr double kLeastMargin = 3;
+    line(fmt::format(
+        "set rmargin {:.1f}",
+        std::max(kLeastMargin, static_cast<double>(chart_.x_ticks.back().second.size()) / 2 + 2)));
   }
 
   void marks() {

@@ -148,6 +148,8 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   if (!solved.improvement) return row;
   if (solved.improvement->log.was_cut_short) row.limit = "time";
   row.progress = progress_rows(solved);
+  row.flowtime_bound_s = solved.improvement->log.bound.flowtime_s;
+  row.makespan_bound_s = solved.improvement->log.bound.makespan_s;
   return row;
 }
 

@@ -102,8 +102,9 @@ Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& pre
                                                       : run_instance(prepared.instance, parameters.options);
   if (!row) return row;
   if (!command_) row->peak_memory_bytes = memory.bytes();
-  row->flowtime_bound_s = bound.flowtime_s;
-  row->makespan_bound_s = bound.makespan_s;
+  // Improvement takes its time to find a greater one.
+  row->flowtime_bound_s = std::max(row->flowtime_bound_s.value_or(0), bound.flowtime_s);
+  row->makespan_bound_s = std::max(row->makespan_bound_s.value_or(0), bound.makespan_s);
   return row;
 }
 
@@ -174,8 +175,9 @@ void Sweep::finish_case(const std::string& name) {
     return;
   }
   entry->finished = true;
-  progress_.finish_case(fmt::format("success {:.2f}, {:.2f} ms", entry->outcome.success_rate(),
-                                    entry->outcome.mean_planning_s() * 1e3));
+  const std::optional<double> solved_in_s = entry->outcome.mean_solved_planning_s();
+  progress_.finish_case(fmt::format("success {:.2f}", entry->outcome.success_rate()) +
+                        (solved_in_s ? fmt::format(", solved in {:.2f} ms", *solved_in_s * 1e3) : ""));
 }
 
 void Sweep::end() {
