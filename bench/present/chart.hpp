@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

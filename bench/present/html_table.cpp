@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "planner/core/assert.hpp"
 #include "planner/io/text.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 namespace {

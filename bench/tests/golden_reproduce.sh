@@ -58,6 +58,16 @@ for picture in runtime cactus box-runtime box-flowtime box-makespan; do
 done
 refused 'picture.png.*expected a name that ends in .svg or .pdf' plot success -o picture.png
 refused "'pie'|pie" plot pie
+refused 'expected two of them, and a scatter plot' plot success --side ssi=0
+expect 4 plot scatter latest --case ssi=5
+says 'expected two runs, or --side twice' err
+expect 0 plot scatter-flowtime latest --side reschedule=deterministic --side reschedule=random -o picture.svg
+says 'reschedule=random' picture.svg
+expect 4 plot improvement
+runs 2 env PATH=/nowhere "$sipplab" plot success -o absent.svg
+equal "$(wc -l <err)" 1 'lines without gnuplot'
+says 'no program gnuplot here.*gnuplot-nox' err
+[ ! -e absent.svg ] || complain 'a picture without gnuplot'
 expect 0 plot runtime latest --case environment=warehouse --case reschedule=deterministic
 says '<svg'
 says 'warehouse, .*deterministic'
