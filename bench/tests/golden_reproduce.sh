@@ -59,7 +59,7 @@ done
 refused 'picture.png.*expected a name that ends in .svg or .pdf' plot success -o picture.png
 refused "'pie'|pie" plot pie
 refused 'expected two of them, and a scatter plot' plot success --side ssi=0
-expect 4 plot scatter latest --case ssi=5,reschedule=random,environment=warehouse
+expect 4 plot scatter latest --case ssi=5,reschedule=random,order=shortest,environment=warehouse
 says 'expected two runs, or --side twice' err
 expect 0 plot scatter-flowtime latest --side reschedule=deterministic --side reschedule=random -o picture.svg
 says 'reschedule=random' picture.svg
