@@ -85,6 +85,7 @@ class RunRecorder {
 
   Result<Done> write_case(const CaseInfo& parameters, const std::vector<BufferedResult>& results);
   Result<Done> write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results);
+  Result<Done> write_bounds(std::int64_t case_id, const std::vector<BufferedResult>& results);
   Result<Done> write_progress(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
   /// An error when another process has taken the run over.
   Result<Done> check_writer();
