@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/judge/case_words.hpp"
 #include "bench/judge/evidence.hpp"
 #include "db/identity.hpp"
 
@@ -63,7 +64,14 @@ class Comparison {
     answers_ = std::move(*answers);
     std::vector<std::string> names;
     for (const GateCell& cell : cases_.cells()) names.push_back(cell.name);
-    result_.judgement = measured(paired_cells(), std::move(names));
+    std::vector<db::PairedCell> cells = paired_cells();
+    std::vector<db::CaseInfo> swept;
+    for (const db::PairedCell& cell : request_.sweeps) {
+      cells.push_back(cell);
+      swept.push_back(cell.parameters);
+    }
+    for (std::string& name : case_words(swept)) names.push_back(std::move(name));
+    result_.judgement = measured(std::move(cells), std::move(names));
     add_times(std::nullopt);
     for (std::size_t cell = 0; cell < cases_.cells().size(); ++cell) {
       if (cases_.cells()[cell].timed) add_times(cell);
@@ -140,7 +148,7 @@ class Comparison {
     update_noise(request_, cases_, noise_, result_);
     const std::vector<Difference*> rows = time_rows(result_.judgement);
     for (Difference* row : rows) evaluate(*row);
-    judge_rows(rows);
+    judge_times(rows);
     return "";
   }
 
@@ -170,9 +178,8 @@ class Comparison {
 
   void give_verdict() {
     JudgeOptions options;
-    options.changed = request_.allow_changes ? Verdict::kEquivalent : Verdict::kRegressed;
-    options.quality = false;
-    options.tolerance = request_.tolerance;
+    options.floors = request_.floors;
+    options.expects_changes = request_.expects_changes;
     const std::string& program = result_.base.build.binary_hash;
     if (!program.empty() && program == result_.head.build.binary_hash && !request_.treat_as_different) {
       options.times_excuse = "both are the same program: what the clock says is noise";
@@ -229,7 +236,7 @@ void update_noise(const GateRequest& request, const GateCases& cases, const std:
     const RowNoise before = calibrated(*row, cases, noise);
     result.calibrations = before.comparisons;
     row->noise = standard_error(before.pairs.empty() ? row->pairs : before.pairs, request.pairs);
-    row->floor = floor_from(row->noise);
+    row->floor = floor_from(row->noise, request.floors.of(kProcessTime));
     // What can be seen is the worse of then and now: the machine may be busier.
     row->detectable = detectable(row->pairs, plan, row->floor);
     if (before.pairs.empty()) continue;
@@ -274,12 +281,14 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
     cell.noise = row.noise;
     cell.effect_floor = row.floor;
     cell.detectable = finite(row.detectable);
-    cell.verdict = name(*row.verdict);
+    // The history has no word for faster; its slowdown is below zero.
+    cell.verdict = name(*row.verdict == Verdict::kImproved ? Verdict::kEquivalent : *row.verdict);
     cell.pairs = slowdowns(row.pairs);
     cell.fresh_pairs = slowdowns(row.fresh_pairs);
     run.cells.push_back(std::move(cell));
   }
   for (const Finding& finding : judgement.findings) {
+    if (finding.cell >= cases.cells().size()) continue;  // of a sweep, whose results are in the history
     const GateCell& cell = cases.cells()[finding.cell];
     run.differences.push_back({cell.row, cases.jobs()[cell.jobs[finding.result]].row,
                                std::string(name(finding.what.kind)), finding.what.base, finding.what.head});

@@ -22,7 +22,10 @@ struct GateRequest {
   std::size_t fresh_pairs = 8;  ///< 7 of 8 confirm
   PairBudget budget;
   double tolerance = 0.05;          ///< a slowdown that must be ruled out for "equivalent"
-  bool allow_changes = false;       ///< other plans are meant
+  Floors floors;
+  bool expects_changes = false;     ///< other plans are meant
+  /// Sweeps of both builds, judged with the rest.
+  std::vector<db::PairedCell> sweeps = {};
   bool treat_as_different = false;  ///< judge times even if both programs are the same file
 };
 
@@ -32,7 +35,8 @@ struct GateResult {
   std::string started_utc;
   double wall_s = 0;
   std::size_t calibrations = 0;  ///< comparisons of equal builds behind the noise
-  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones
+  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones;
+                                 ///< then come those of sweeps
 };
 
 /// Times of all cells together, then of each timed cell.
