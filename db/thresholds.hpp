@@ -33,6 +33,9 @@ inline constexpr std::array<Threshold, 5> kThresholds = {{
     {MetricKind::kMemory, "memory", 0.03, "pages and the allocator's arenas come in lumps"},
 }};
 
+/// Of times that did not run in turn, which wander by a few per cent on machines that are shared.
+inline constexpr double kUnpairedTimeFloor = 0.05;
+
 constexpr double floor_of(MetricKind kind) { return kThresholds[static_cast<std::size_t>(kind)].floor; }
 
 }  // namespace sipplab::db

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
@@ -35,6 +36,7 @@ constexpr std::uint64_t kInstanceSeed = 1;
 struct GateArguments {
   bool serve = false;
   bool timed_only = false;
+  bool quick = false;
   std::string base;
   std::string head;
   bool calibrate = false;
@@ -151,13 +153,24 @@ int run_gate(const GateArguments& given) {
     *build = SIPPLAB_TRY_OR(bad_usage, bench::find_program(*build));
   }
   arguments.request.builds = {arguments.base, arguments.head, {}};
-  for (const char* variable : {bench::kSlowdownVariable, bench::kChangeVariable}) {
+  for (const char* variable :
+       {bench::kSlowdownVariable, bench::kIntoVariable, bench::kChangeVariable}) {
     const char* value = std::getenv(variable);
     if (value == nullptr || arguments.calibrate) continue;
     arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
   }
+  bench::GateCases::Extent extent;
+  extent.exact = !arguments.timed_only;
+  extent.crowded = extent.laboratory = !arguments.quick;
+  for (const auto& [program, title] : {std::pair(arguments.base, "base"), {arguments.head, "head"}}) {
+    const auto worker =
+        SIPPLAB_TRY_OR(bad_usage, bench::WorkerProcess::start({program, title, std::nullopt, {}}));
+    if (worker.greeting().protocol >= bench::kGateProtocol) continue;
+    diagnose(fmt::format("the {} build is older: crowded cells and what is not the planner are left out", title));
+    extent.crowded = extent.laboratory = false;
+  }
   const auto cases = SIPPLAB_TRY_OR(
-      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only));
+      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, extent));
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   bench::catch_interrupts();
   return arguments.calibrate ? run_calibration(arguments, cases, database)
@@ -206,10 +219,12 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
       ->capture_default_str();
   add_database_flag(command, arguments.database);
   add_report_flags(command, arguments.report);
-  // For scripts and tests: what a judged build is started with; a short exact tier; short pairs;
+  // For scripts and tests: what a judged build is started with; a short exact tier; no
+  // crowded cells and nothing that is not the planner; short pairs;
   // the same program as if it were two.
   command.add_flag("--serve", arguments.serve)->group("");
   command.add_flag("--timed-only", arguments.timed_only)->group("");
+  command.add_flag("--short-cells", arguments.quick)->group("");
   command.add_option("--fewest-rounds", request.budget.fewest_rounds)->group("")->check(CLI::Range(1, 1000));
   command.add_flag("--treat-as-different", request.treat_as_different)->group("");
 }

@@ -122,12 +122,8 @@ const Metric kInstructions = {
     .judges_pooled = true,
     .value = [](const db::ResultRow& row) { return count(static_cast<std::uint64_t>(row.instructions.value_or(0))); },
     .of_machine = true};
-/// A planning in less than this says nothing of memory: pages come in batches.
-constexpr double kMemoryGrainBytes = 1 << 20;
 const Metric kMemory = {.name = "peak memory",
                         .kind = db::MetricKind::kMemory,
-                        .test = Test::kRanks,
-                        .judges_pooled = true,
                         .value =
                             [](const db::ResultRow& row) {
                               if (!row.peak_memory_bytes) return 0.0;
@@ -146,6 +142,11 @@ const Metric kProcessTime = {.name = "time",
                              .median = true,
                              .judges = true,
                              .judges_pooled = true};
+const Metric kProcessMemory = {.name = "memory",
+                               .kind = db::MetricKind::kMemory,
+                               .test = Test::kFreshPairs,
+                               .median = true,
+                               .judges_pooled = true};
 
 double Floors::of(const Metric& metric) const {
   const double share = shares[static_cast<std::size_t>(metric.kind)];

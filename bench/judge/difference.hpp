@@ -61,14 +61,19 @@ extern const Metric kExpansions;
 extern const Metric kGenerations;
 extern const Metric kTries;
 extern const Metric kInstructions;
-extern const Metric kMemory;
+extern const Metric kMemory;  ///< of two processes, which differ by themselves: it judges nothing
 extern const Metric kSweepTime;    ///< of sweeps, which did not run in turn: it judges nothing
 extern const Metric kProcessTime;  ///< of pairs of processes, by the gate
+extern const Metric kProcessMemory;
 
 /// Those of recorded results. A new metric is a row here and a constant above.
 inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess, &kFlowtime, &kMakespan,
                                                      &kExpansions, &kGenerations, &kTries,
                                                      &kInstructions, &kMemory, &kSweepTime};
+
+/// Added to the bytes of both sides before they are compared: pages are counted in batches, so that a planning
+/// in less says nothing.
+inline constexpr double kMemoryGrainBytes = 1 << 20;
 
 /// Smallest effects that count, by kind of metric.
 struct Floors {

@@ -9,7 +9,7 @@
 namespace sipplab::bench {
 
 /// Rises when measuring or judging changes in a way that makes older noise worthless.
-inline constexpr int kGateMethod = 1;
+inline constexpr int kGateMethod = 2;
 
 /// Chance of suspecting some row of a comparison of equal builds, before fresh pairs are asked.
 inline constexpr double kSuspicionLevel = 0.02;

@@ -119,7 +119,7 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
 
 /// In the order in which people ask.
 constexpr const Metric* kInWords[] = {&kProcessTime, &kSuccess,     &kFlowtime, &kMakespan,    &kExpansions,
-                                      &kGenerations, &kInstructions, &kTries,    &kMemory};
+                                      &kGenerations, &kInstructions, &kTries,    &kProcessMemory};
 
 /// Raises cells and the whole by their rows, and says why.
 void judge_metrics(Judgement& judgement, bool excused) {
@@ -127,7 +127,7 @@ void judge_metrics(Judgement& judgement, bool excused) {
   std::vector<std::string> said;
   for (const Verdict verdict : kOf) {
     for (const Metric* metric : kInWords) {
-      if (excused && metric == &kProcessTime) continue;
+      if (excused && metric->test == Test::kFreshPairs) continue;
       std::vector<const Difference*> rows;
       for (const Difference& row : judgement.differences) {
         if (row.metric != metric || row.verdict != verdict) continue;
@@ -218,7 +218,7 @@ std::string sight_text(const Judgement& judgement) {
   std::string text;
   for (const Metric* metric : kInWords) {
     const Difference* row = judgement.find(*metric, std::nullopt);
-    if (row == nullptr || metric == &kProcessTime || row->pairs.empty()) continue;
+    if (row == nullptr || metric->test == Test::kFreshPairs || row->pairs.empty()) continue;
     // Where nothing differs, nothing is known of how changes scatter.
     if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
     const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
@@ -296,7 +296,7 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
   std::vector<Difference*> cells;
   bool slower = false;
   for (Difference& row : judgement.differences) {
-    if (row.metric == &kProcessTime) {
+    if (row.metric->test == Test::kFreshPairs) {
       slower = slower || row.verdict > Verdict::kEquivalent;
     } else if (row.cell ? row.metric->judges : row.metric->judges_pooled) {
       (row.cell ? cells : pooled).push_back(&row);

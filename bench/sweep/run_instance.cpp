@@ -89,6 +89,18 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
   return row;
 }
 
+db::ResultRow described(const PlannerOptions& options, const SolveResult& solved) {
+  db::ResultRow row = described(options, solved.plan);
+  row.planning_time_ns = nanoseconds(solved.seconds());
+  row.expansions = solved.statistics().expansions;
+  row.generations = solved.statistics().generations;
+  if (!solved.is_solved()) return row;
+  add_solution(solved.solution(), row);
+  row.ssi_kept_s = solved.ssi_kept_s();
+  if (solved.improvement && solved.improvement->log.was_cut_short) row.limit = "time";
+  return row;
+}
+
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   db::ResultRow row = described(options, result);
   if (result.status == PlanStatus::kSolved) {
@@ -124,18 +136,11 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   const InstructionCount instructions;
   const SolveResult solved = solve(instance, options);
   const std::optional<std::int64_t> counted = instructions.count();
-  db::ResultRow row = described(options, solved.plan);
+  db::ResultRow row = described(options, solved);
   row.instructions = counted;
-  row.planning_time_ns = nanoseconds(solved.seconds());
-  row.expansions = solved.statistics().expansions;
-  row.generations = solved.statistics().generations;
   if (!solved.is_solved()) return row;
-  add_solution(solved.solution(), row);
-  row.ssi_kept_s = solved.ssi_kept_s();
   add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
-  if (!solved.improvement) return row;
-  if (solved.improvement->log.was_cut_short) row.limit = "time";
-  row.progress = progress_rows(solved);
+  if (solved.improvement) row.progress = progress_rows(solved);
   return row;
 }
 

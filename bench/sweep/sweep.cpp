@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bench/interrupt.hpp"
-#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 
 namespace sipplab::bench {
@@ -90,14 +89,15 @@ bool Sweep::begin() {
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
 Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
-                                                     const SweepCase& parameters) const {
+                                                     const SweepCase& parameters,
+                                                     PeakMemory& memory) const {
   if (!prepared.broken.empty()) {
     db::ResultRow row;
     row.message = prepared.broken;
     return row;
   }
   if (command_) return command_->run(prepared.instance, parameters.options);
-  const PeakMemory memory;
+  memory.restart();
   db::ResultRow row = run_instance(prepared.instance, parameters.options);
   row.peak_memory_bytes = memory.bytes();
   return row;
@@ -112,6 +112,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
   CaseOutcome outcome;  // of this repetition
   std::string violation;
   std::size_t next = 0;
+  PeakMemory memory;  // a case has its own baseline: the process holds what cases before it left
   for ([[maybe_unused]] auto iteration : state) {
     if (stopping()) {
       state.SkipWithError("stopped before its end");
@@ -119,7 +120,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     const std::size_t position = next++;
     const PreparedInstance& prepared = instances[position];
-    Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters);
+    Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters, memory);
     if (!planned) error_ = db::Error{db::ErrorKind::kInternal, std::move(planned.error())};
     if (command_ && stopping()) {
       state.SkipWithError("stopped before its end");  // the program was ended, too

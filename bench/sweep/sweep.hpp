@@ -13,6 +13,7 @@
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
+#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/progress.hpp"
 #include "db/recorder.hpp"
 
@@ -75,7 +76,7 @@ class Sweep {
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
   Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared,
-                                                const SweepCase& parameters) const;
+                                                const SweepCase& parameters, PeakMemory& memory) const;
 
   std::vector<InstanceSet> sets_;
   std::vector<SweepEntry> entries_;

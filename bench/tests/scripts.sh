@@ -42,7 +42,12 @@ refused '-x, expected' package -x
 refused "suite '/', expected a name" test-fresh /
 refused '--frobnicate, expected' test-fresh --frobnicate
 refused '--frobnicate, expected' pull-request --frobnicate HEAD
-refused 'usage' gate-trials --frobnicate
+refused '--frobnicate, expected' trials gate --frobnicate
+refused 'usage' trials
+refused "--worse 'makespan', expected" trials compare --worse makespan 0.1 3
+refused 'usage' bisect HEAD
+refused 'expected a commit' bisect HEAD no/such/commit
+refused "--calibrate 'x', expected" pull-request HEAD --calibrate x
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused'
 exit "$broken"
