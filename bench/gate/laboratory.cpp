@@ -12,8 +12,8 @@
 #include "db/queries.hpp"
 #include "planner/core/number.hpp"
 #include "planner/core/try.hpp"
-#include "planner/io/load_instance.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "db/recorder.hpp"
 #include "planner/core/expected.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
 

@@ -87,7 +87,7 @@ Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases&
     random.shuffle(jobs);
     for (const std::size_t job : jobs) {
       const bool head_first = random.below(2) == 1;
-      const WorkerProcess::Ask ask = round == 0 ? WorkerProcess::Ask::kMemory : WorkerProcess::Ask::kTime;
+      const WorkerProcess::Ask ask = round == 0 ? WorkerProcess::Ask::kPages : WorkerProcess::Ask::kClock;
       auto first = SIPPLAB_TRY((head_first ? workers.head : workers.base).plan(job, ask));
       auto second = SIPPLAB_TRY((head_first ? workers.base : workers.head).plan(job, ask));
       const WorkerAnswer& base = head_first ? second : first;

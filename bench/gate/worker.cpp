@@ -16,8 +16,8 @@
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/run_instance.hpp"
-#include "planner/io/load_instance.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -166,7 +166,7 @@ Expected<std::size_t, std::string> WorkerProcess::add_job(std::size_t instance,
 
 Expected<WorkerAnswer, std::string> WorkerProcess::plan(std::size_t job, Ask what) {
   const auto answer = SIPPLAB_TRY(
-      ask({{"plan", job}, {"check", what == Ask::kVerdict}, {"memory", what == Ask::kMemory}}));
+      ask({{"plan", job}, {"check", what == Ask::kVerdict}, {"memory", what == Ask::kPages}}));
   Expected<WorkerAnswer, std::string> read = answer_from_json(answer);
   if (!read) return Unexpected{complaint(read.error())};
   return read;

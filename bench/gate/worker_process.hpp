@@ -12,7 +12,7 @@
 
 #include "bench/gate/laboratory.hpp"
 #include "bench/gate/protocol.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 
@@ -49,8 +49,8 @@ class WorkerProcess {
   Expected<std::size_t, std::string> add_job(std::size_t instance, const PlannerOptions& options,
                                              GateTask task);
   enum class Ask {
-    kTime,
-    kMemory,   ///< and memory: takes a little longer
+    kClock,
+    kPages,    ///< and memory: takes a little longer
     kVerdict,  ///< and what the validator says
   };
   /// Does a job.

@@ -19,7 +19,7 @@
 #include "bench/temporary_folder.hpp"
 #include "planner/core/random.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::bench {
 namespace {
