@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "db/recorder.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 #include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
