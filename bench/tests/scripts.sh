@@ -90,7 +90,7 @@ done
 judge() { PATH=$work/programs:$PATH timeout 120 "$@" >"$work.out" 2>"$work.err"; }
 judge scripts/bisect HEAD~6 HEAD || complain "bisect: exit code $?, $(tail -n 2 "$work.err" "$work.out")"
 grep -q "$(git rev-parse HEAD~1) is the first bad commit" "$work.out" || complain "bisect did not name the first bad commit: $(tail -n 5 "$work.out")"
-judge scripts/bisect --changed HEAD~6 HEAD~5 && grep -q "$(git rev-parse HEAD~5) is the first bad commit" "$work.out" ||
+judge scripts/bisect --changed HEAD~6 HEAD~4 && grep -q "$(git rev-parse HEAD~5) is the first bad commit" "$work.out" ||
   complain "bisect --changed did not name the commit with other plans: $(tail -n 5 "$work.out")"
 [ "$(git status --porcelain)" = '' ] && [ "$(cat number)" -eq 7 ] || complain 'bisect changed the checkout'
 
