@@ -10,10 +10,11 @@
 namespace sipplab::cli {
 namespace {
 
-int exit_code(bench::Verdict verdict, bool expects_changes) {
-  if (verdict == bench::Verdict::kRegressed) return kNegativeVerdict;
-  if (verdict == bench::Verdict::kChanged && !expects_changes) return kChangedPlans;
-  return verdict == bench::Verdict::kInconclusive ? kInconclusive : kSuccess;
+/// Other plans that nobody expects fail, also where it is unclear whether they are worse.
+int exit_code(const bench::Judged& all, bool expects_changes) {
+  if (all.verdict == bench::Verdict::kRegressed) return kNegativeVerdict;
+  if (all.other_plans > 0 && !expects_changes) return kChangedPlans;
+  return all.verdict == bench::Verdict::kInconclusive ? kInconclusive : kSuccess;
 }
 
 /// "counts=0.5": a kind and per cent.
@@ -78,7 +79,7 @@ int print_report(const bench::Report& report, const ReportFlags& flags) {
       return fail(error->message());
     }
   }
-  return exit_code(report.judgement.all.verdict, flags.expects_changes);
+  return exit_code(report.judgement.all, flags.expects_changes);
 }
 
 }  // namespace sipplab::cli

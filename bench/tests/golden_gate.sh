@@ -62,18 +62,20 @@ equal "$(ask 'SELECT injected_slowdown, verdict, slowdown > 0.8 FROM v_gate_runs
 equal "$(ask 'SELECT count(DISTINCT pairs) > 0, min(pairs) FROM v_gate_cells WHERE gate_run = (SELECT gate_run FROM v_gate_runs ORDER BY started_utc DESC LIMIT 1)')" "1|16" "pairs in the history, fresh ones included"
 
 # One instance planned otherwise: found, named, and planned again by the command that is printed.
-# It is changed, not regressed, and fails unless somebody expects it.
+# It is changed, not regressed, and fails unless somebody expects it; whether it is worse one instance cannot tell.
 SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10
+says '^INCONCLUSIVE: flowtime \+0.4 % .*, which may be chance; 1 of 20 plannings changed; '
 says '^plan: empty:32x32 agents:32 seed:1 index:1$'
-says '^CHANGED: 1 of 20 plannings changed; '
 flowtime=$(sed -n 's/.*base: plan .*flowtime //p' out | head -n 1)
 again=$(sed -n 's/^ *again: //p' out | head -n 1)
 PATH=$work:$PATH bash -c "$again" >replayed 2>&1 || complain "the printed command fails: $again"
 # The gate prints two digits behind the point, plan three.
 awk -v expected="$flowtime" '$1 == "flowtime" { off = $2 - expected; found = off < 0.006 && off > -0.006 } END { exit !found }' replayed ||
   complain "no flowtime $flowtime in: $(head -c 500 replayed)"
-SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --tolerance 10
-says 'as expected'
+SIPPLAB_INJECT_CHANGE=1 expect 3 "${gate[@]}" --pairs 6 --expect-changes --tolerance 10
+says '1 of 20 plannings changed, as expected'
+SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --floor quality=5 --tolerance 10
+says '^CHANGED: 1 of 20 plannings changed, as expected; no slowdown'
 equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'plan'")" "empty:32x32 agents:32 seed:1 index:1" "the instance in the history"
 
 [ -z "$(ls "$TMPDIR")" ] || complain "the gate left files: $(ls "$TMPDIR")"
@@ -113,7 +115,7 @@ says '^INCONCLUSIVE: success .* points: 1 of 16 plannings lost, 0 gained'
 says '<skipped' compare.xml
 expect 0 report "$head" --base "$base" --db gate.db -o page
 says '<td class="bad">lost</td><td>warehouse, 16 robots, ssi 5, none</td>' page/index.html
-expect 3 compare "$base" "$head" --db gate.db --exact --json
+expect 5 compare "$base" "$head" --db gate.db --exact --json
 says '"verdict": "inconclusive"'
 python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
 
