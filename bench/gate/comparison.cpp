@@ -214,6 +214,12 @@ std::optional<double> finite(double log_ratio) {
   return std::expm1(log_ratio);
 }
 
+/// The history has one word for all verdicts that are not bad. What is faster has a slowdown below zero, and what
+/// differs is counted.
+std::string_view recorded_name(Verdict verdict) {
+  return name(verdict < Verdict::kInconclusive ? Verdict::kEquivalent : verdict);
+}
+
 std::vector<double> slowdowns(const std::vector<double>& log_ratios) {
   std::vector<double> values;
   for (const double log_ratio : log_ratios) values.push_back(std::expm1(log_ratio));
@@ -278,7 +284,7 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
   const Judgement& judgement = result.judgement;
   run.compared = static_cast<std::int64_t>(judgement.all.compared);
   run.differing = static_cast<std::int64_t>(judgement.all.differing);
-  run.verdict = name(judgement.all.verdict);
+  run.verdict = recorded_name(judgement.all.verdict);
   run.reason = judgement.all.reason;
   for (const Difference& row : judgement.differences) {
     if (row.metric != &kProcessTime) continue;
@@ -294,8 +300,7 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
     cell.noise = row.noise;
     cell.effect_floor = row.floor;
     cell.detectable = finite(row.detectable);
-    // The history has no word for faster; its slowdown is below zero.
-    cell.verdict = name(*row.verdict == Verdict::kImproved ? Verdict::kEquivalent : *row.verdict);
+    cell.verdict = recorded_name(*row.verdict);
     cell.pairs = slowdowns(row.pairs);
     cell.fresh_pairs = slowdowns(row.fresh_pairs);
     run.cells.push_back(std::move(cell));

@@ -46,10 +46,8 @@ void GateCases::add_laboratory() {
     cell.row.planner = fmt::format("laboratory:{}", name(task));
     cell.task = task;
     cell.jobs.clear();
-    // Histories are the same whatever the instance is.
-    const std::size_t count = task == GateTask::kRecord || task == GateTask::kAsk ? 1 : planned.jobs.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      GateJob job = jobs_[planned.jobs[i]];
+    for (const std::size_t number : planned.jobs) {  // a history is the same for each: they are repetitions
+      GateJob job = jobs_[number];
       job.cell = cells_.size();
       cell.jobs.push_back(jobs_.size());
       jobs_.push_back(std::move(job));

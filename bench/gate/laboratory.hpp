@@ -39,7 +39,7 @@ class Laboratory {
   /// Histories of this process come into `folder`, and stay there.
   explicit Laboratory(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Does it again and again for a millisecond or more; spends `slowdown` of each time once more.
+  /// Does it again and again for two milliseconds or more; spends `slowdown` of each time once more.
   /// REQUIRES: task is not kPlan. Errors: one line.
   Expected<TimedTask, std::string> run(GateTask task, const std::string& file, const Instance& instance,
                                        const PlannerOptions& options, double slowdown);

@@ -91,9 +91,15 @@ double percent(double log_ratio) { return 100 * std::expm1(log_ratio); }
 
 /// " (95 %: +4.8 to +6.3)"; empty if there is no such interval.
 std::string interval_text(double low, double high, bool signs) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "";
+  if (!std::isfinite(low) || !std::isfinite(high) || (low == 0 && high == 0)) return "";
   return signs ? fmt::format(" (95 %: {:+.1f} to {:+.1f})", low, high)
                : fmt::format(" (95 %: {:.1f} to {:.1f})", low, high);
+}
+
+/// Why a row does not count for certain.
+std::string doubt(const Difference& row) {
+  if (row.verdict != Verdict::kInconclusive) return "";
+  return row.metric->test == Test::kFreshPairs ? ", too noisy now to tell" : ", which may be chance";
 }
 
 /// What rows of one metric say together: the one over all cells, then the worst cell, the others counted.
@@ -110,9 +116,9 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
     if (worst == nullptr || std::abs(row->effect) > std::abs(worst->effect)) worst = row;
   }
   std::string text = pooled != nullptr ? words(*pooled) : "";
-  if (worst == nullptr) return text;
+  if (worst == nullptr) return text + doubt(*pooled);
   text += (pooled != nullptr ? ", most of all " : "") + words(*worst) + " in " +
-          judgement.cells[*worst->cell].name;
+          judgement.cells[*worst->cell].name + doubt(*worst);
   if (cells > 1) text += fmt::format("; {} of {} cells are like that", cells, judgement.cells.size());
   return text;
 }
@@ -132,7 +138,7 @@ void judge_metrics(Judgement& judgement, bool excused) {
       for (const Difference& row : judgement.differences) {
         if (row.metric != metric || row.verdict != verdict) continue;
         rows.push_back(&row);
-        if (row.cell) judgement.cells[*row.cell].raise(verdict, words(row));
+        if (row.cell) judgement.cells[*row.cell].raise(verdict, words(row) + doubt(row));
       }
       if (rows.empty()) continue;
       said.push_back(words(judgement, rows));
@@ -195,9 +201,8 @@ std::string words(const Difference& row) {
                        row.lost, row.plannings, row.gained, row.adjusted_p);
   }
   if (row.metric != &kProcessTime) {
-    return fmt::format("{} {:+.1f} %{}{}", row.metric->name, effect,
-                       interval_text(percent(row.at_least), percent(row.at_most), true),
-                       row.verdict == Verdict::kInconclusive ? ", which may be chance" : "");
+    return fmt::format("{} {:+.1f} %{}", row.metric->name, effect,
+                       interval_text(percent(row.at_least), percent(row.at_most), true));
   }
   if (row.verdict == Verdict::kRegressed) {
     return fmt::format("{:.1f} % slower{}", effect,
@@ -208,10 +213,8 @@ std::string words(const Difference& row) {
                        interval_text(-percent(row.at_most), -percent(row.at_least), false));
   }
   const std::string interval = interval_text(percent(row.at_least), percent(row.at_most), true);
-  if (row.verdict == Verdict::kInconclusive) {
-    return fmt::format("time {:+.1f} %{}, too noisy now to tell", effect, interval);
-  }
-  return fmt::format("no slowdown: time {:+.1f} %{}", effect, interval);
+  return fmt::format("{}time {:+.1f} %{}", row.verdict == Verdict::kEquivalent ? "no slowdown: " : "", effect,
+                     interval);
 }
 
 std::string sight_text(const Judgement& judgement) {

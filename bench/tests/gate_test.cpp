@@ -279,7 +279,7 @@ TEST(GateCases, HoldEachTimedInstanceAndTheSmokeSuite) {
   }
   EXPECT_EQ(timed["short"], 20U);
   EXPECT_EQ(timed["crowded"], 14U);
-  EXPECT_EQ(timed["laboratory"], 12U);
+  EXPECT_EQ(timed["laboratory"], 20U);
   EXPECT_GT(cases->jobs().size(), 100U);
   EXPECT_EQ(cases->cells().front().name, "empty:32x32, 32 robots");
   EXPECT_FALSE(GateCases::make("nonsense", 1, {}));
