@@ -71,9 +71,10 @@ std::size_t instances(const std::vector<const db::PairedCell*>& cells) {
   return hashes.size();
 }
 
-/// Validity first, then what the head lost, then what it gained.
+/// Validity first, then what the head lost, what it gained, other plans and at last other work.
 int rank(const Judgement& judgement, const Finding& finding) {
   if (finding.what.kind == ChangeKind::kValidity) return 0;
+  if (finding.what.kind == ChangeKind::kWork) return 4;
   if (finding.what.kind != ChangeKind::kStatus) return 3;
   return is_solved(judgement.result(finding).head) ? 2 : 1;
 }
@@ -91,7 +92,9 @@ double percent(double log_ratio) { return 100 * std::expm1(log_ratio); }
 
 /// " (95 %: +4.8 to +6.3)"; empty if there is no such interval.
 std::string interval_text(double low, double high, bool signs) {
-  if (!std::isfinite(low) || !std::isfinite(high) || (low == 0 && high == 0)) return "";
+  constexpr double kNoDigit = 0.05;  // it would be "+0.0"
+  if (!std::isfinite(low) || !std::isfinite(high)) return "";
+  if (std::abs(low) < kNoDigit && std::abs(high) < kNoDigit) return "";
   return signs ? fmt::format(" (95 %: {:+.1f} to {:+.1f})", low, high)
                : fmt::format(" (95 %: {:.1f} to {:.1f})", low, high);
 }
@@ -117,9 +120,20 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
   }
   std::string text = pooled != nullptr ? words(*pooled) : "";
   if (worst == nullptr) return text + doubt(*pooled);
-  text += (pooled != nullptr ? ", most of all " : "") + words(*worst) + " in " +
-          judgement.cells[*worst->cell].name + doubt(*worst);
-  if (cells > 1) text += fmt::format("; {} of {} cells are like that", cells, judgement.cells.size());
+  const double effect = percent(worst->effect);
+  if (pooled == nullptr) {
+    text += words(*worst);
+  } else if (worst->metric == &kProcessTime) {
+    text += fmt::format(", most of all {:.1f} %", std::abs(effect));
+  } else {
+    text += worst->metric == &kSuccess ? fmt::format(", most of all {:+.1f} points", -100 * worst->effect)
+                                       : fmt::format(", most of all {:+.1f} %", effect);
+  }
+  text += " in " + judgement.cells[*worst->cell].name + doubt(*worst);
+  const auto all = std::count_if(
+      judgement.differences.begin(), judgement.differences.end(),
+      [worst](const Difference& row) { return row.cell && row.metric == worst->metric && !row.pairs.empty(); });
+  if (cells > 1) text += fmt::format(" ({} of {} cells are like that)", cells, all);
   return text;
 }
 
