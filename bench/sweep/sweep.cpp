@@ -7,6 +7,7 @@
 
 #include "bench/interrupt.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "sipplab/generator.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -25,6 +26,15 @@ std::vector<SweepEntry> entries_of(std::vector<NamedCase> cases) {
     entries.push_back(std::move(entry));
   }
   return entries;
+}
+
+/// Plans something small, so that what the first case is measured to take, memory above all, is not that of
+/// code which is read for the first time.
+void warm_up() {
+  GeneratorOptions robots;
+  robots.agents = 64;
+  const auto instance = generate_instance(warehouse_map(), robots);
+  if (instance) run_instance(*instance, {});
 }
 
 std::size_t instance_count(const ExpandedSweep& sweep) {
@@ -83,6 +93,7 @@ void Sweep::register_benchmarks(bool fill_counters) {
 bool Sweep::begin() {
   const db::Result<db::Done> started = recording_.start();
   if (!started) error_ = started.error();
+  if (started && !command_) warm_up();
   return started.has_value();
 }
 
