@@ -217,7 +217,7 @@ void judge_recorded(const std::vector<Difference*>& family, const Floors& floors
     row.adjusted_p = adjusted[i];
     row.floor = floors.of(*row.metric);
     const double level = kRecordedLevel / count(family.size());
-    row.detectable = row.metric->test == Test::kSigns ? detectable_losses(row.plannings, level)
+    row.detectable = row.metric->test == Test::kSigns ? detectable_losses(row.pairs, row.plannings, level)
                                                       : detectable_by_ranks(row.pairs, level, row.floor);
     row.verdict = verdict(row);
   }

@@ -157,12 +157,22 @@ double detectable_by_ranks(const std::vector<double>& pairs, double level, doubl
                                              std::sqrt(kEfficiencyOfRanks));
 }
 
-double detectable_losses(std::size_t plannings, double level) {
-  // Signs that all agree reach the level from this many on; so many come 19 times of 20 if the mean of a
-  // Poisson distribution is the square of (z / 2 + sqrt(needed)), nearly.
-  const double needed = std::ceil(1 - std::log2(level));
-  const double root = db::statistics::normal_quantile(kPower) / 2 + std::sqrt(needed);
-  const double share = plannings > 0 ? root * root / static_cast<double>(plannings) : kInfinity;
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level) {
+  const auto count = static_cast<double>(nets.size());
+  const double z = db::statistics::normal_quantile(1 - level / 2);
+  if (plannings == 0 || z * z >= count) return kInfinity;
+  const double mean = std::accumulate(nets.begin(), nets.end(), 0.0) / count;
+  double scatter = 0;  // of the sum of nets, without losses
+  for (const double net : nets) scatter += (net - mean) * (net - mean);
+  // Of q losses the sum of nets is q, and that of their squares scatter + q + q^2 / count, for some instances
+  // lose twice: the test finds q >= z sqrt(that), and no fewer than signs that all agree need.
+  const double share_of_square = 1 - z * z / count;
+  const double found = (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
+  const double least = std::max(found, std::ceil(1 - std::log2(level)));
+  // So many or more come in 95 of 100 comparisons.
+  const double power = db::statistics::normal_quantile(kPower);
+  const double root = (power + std::sqrt(power * power + 4 * (least + scatter))) / 2;
+  const double share = (root * root - scatter) / static_cast<double>(plannings);
   return share <= 1 ? share : kInfinity;
 }
 
