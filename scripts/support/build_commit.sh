@@ -12,6 +12,7 @@ build_commit() {
   program=$tree/build/release/sipplab
   [ ! -x "$program" ] || [ ! -e "$tree/built" ] || return 0
   if [ ! -e "$tree/CMakeLists.txt" ]; then
+    rm -rf "$tree" # of a build that was stopped
     git -C "$root" worktree prune
     git -C "$root" worktree add --quiet --detach "$tree" "$1" || return
   fi
