@@ -153,8 +153,7 @@ int run_gate(const GateArguments& given) {
     *build = SIPPLAB_TRY_OR(bad_usage, bench::find_program(*build));
   }
   arguments.request.builds = {arguments.base, arguments.head, {}};
-  for (const char* variable :
-       {bench::kSlowdownVariable, bench::kIntoVariable, bench::kChangeVariable}) {
+  for (const char* variable : {bench::kSlowdownVariable, bench::kIntoVariable, bench::kChangeVariable}) {
     const char* value = std::getenv(variable);
     if (value == nullptr || arguments.calibrate) continue;
     arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
@@ -166,11 +165,12 @@ int run_gate(const GateArguments& given) {
     const auto worker =
         SIPPLAB_TRY_OR(bad_usage, bench::WorkerProcess::start({program, title, std::nullopt, {}}));
     if (worker.greeting().protocol >= bench::kGateProtocol) continue;
-    diagnose(fmt::format("the {} build is older: crowded cells and what is not the planner are left out", title));
+    diagnose(
+        fmt::format("the {} build is older: crowded cells and what is not the planner are left out", title));
     extent.crowded = extent.laboratory = false;
   }
-  const auto cases = SIPPLAB_TRY_OR(
-      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, extent));
+  const auto cases =
+      SIPPLAB_TRY_OR(bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, extent));
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   bench::catch_interrupts();
   return arguments.calibrate ? run_calibration(arguments, cases, database)

@@ -214,8 +214,8 @@ std::optional<double> finite(double log_ratio) {
   return std::expm1(log_ratio);
 }
 
-/// The history has one word for all verdicts that are not bad. What is faster has a slowdown below zero, and what
-/// differs is counted.
+/// The history has one word for all verdicts that are not bad. What is faster has a slowdown below zero, and
+/// what differs is counted.
 std::string_view recorded_name(Verdict verdict) {
   return name(verdict < Verdict::kInconclusive ? Verdict::kEquivalent : verdict);
 }

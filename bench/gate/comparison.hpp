@@ -21,9 +21,9 @@ struct GateRequest {
   std::size_t pairs = 14;       ///< 13 of 14 above zero are what the strictest Holm step asks
   std::size_t fresh_pairs = 8;  ///< 7 of 8 confirm
   PairBudget budget;
-  double tolerance = 0.05;          ///< a slowdown that must be ruled out for "equivalent"
+  double tolerance = 0.05;  ///< a slowdown that must be ruled out for "equivalent"
   Floors floors;
-  bool expects_changes = false;     ///< other plans are meant
+  bool expects_changes = false;  ///< other plans are meant
   /// Sweeps of both builds, judged with the rest.
   std::vector<db::PairedCell> sweeps = {};
   bool treat_as_different = false;  ///< judge times even if both programs are the same file
@@ -39,7 +39,8 @@ struct GateResult {
                                  ///< then come those of sweeps
 };
 
-/// What pairs of processes gave: times of all cells together, then of each timed cell, then the memory of all.
+/// What pairs of processes gave: times of all cells together, then of each timed cell, then the memory of
+/// all.
 std::vector<Difference*> paired_rows(Judgement& judgement);
 
 /// Called with one line whenever something new is under way.

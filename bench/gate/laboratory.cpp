@@ -106,9 +106,11 @@ Expected<std::uint64_t, std::string> Laboratory::once(GateTask task, const std::
     }
     case GateTask::kValidate: {
       const auto known = plans_.find(&instance);
-      const SolveResult& plan =
-          known != plans_.end() ? known->second : plans_.emplace(&instance, solve(instance, options)).first->second;
-      return std::uint64_t{1} + validate(instance, plan.solution(), plan.promises(options.rules)).violations.size();
+      const SolveResult& plan = known != plans_.end()
+                                    ? known->second
+                                    : plans_.emplace(&instance, solve(instance, options)).first->second;
+      return std::uint64_t{1} +
+             validate(instance, plan.solution(), plan.promises(options.rules)).violations.size();
     }
     case GateTask::kRecord:
       return record();

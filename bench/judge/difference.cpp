@@ -73,9 +73,7 @@ Verdict verdict(const Difference& row) {
   return doubtful ? Verdict::kInconclusive : Verdict::kChanged;
 }
 
-bool is_slower(const Difference& row) {
-  return row.adjusted_p <= kSuspicionLevel && row.effect > row.floor;
-}
+bool is_slower(const Difference& row) { return row.adjusted_p <= kSuspicionLevel && row.effect > row.floor; }
 bool is_faster(const Difference& row) {
   return row.adjusted_faster_p <= kSuspicionLevel && row.effect < -row.floor;
 }
@@ -95,10 +93,10 @@ const Metric kFlowtime = {.name = "flowtime",
                           .judges_pooled = true,
                           .doubts_pooled = true,
                           .value = [](const db::ResultRow& row) { return row.flowtime_s.value_or(0); }};
-const Metric kMakespan = {.name = "makespan",
-                          .test = Test::kRanks,
-                          .judges_pooled = true,
-                          .value = [](const db::ResultRow& row) { return row.makespan_s.value_or(0); }};
+const Metric kMakespan = {
+    .name = "makespan", .test = Test::kRanks, .judges_pooled = true, .value = [](const db::ResultRow& row) {
+      return row.makespan_s.value_or(0);
+    }};
 const Metric kExpansions = {.name = "expansions",
                             .kind = db::MetricKind::kCounts,
                             .test = Test::kRanks,
@@ -115,13 +113,15 @@ const Metric kTries = {.name = "tries",
                        .test = Test::kRanks,
                        .judges_pooled = true,
                        .value = [](const db::ResultRow& row) { return count(row.tries); }};
-const Metric kInstructions = {
-    .name = "instructions",
-    .kind = db::MetricKind::kTime,
-    .test = Test::kRanks,
-    .judges_pooled = true,
-    .value = [](const db::ResultRow& row) { return count(static_cast<std::uint64_t>(row.instructions.value_or(0))); },
-    .of_machine = true};
+const Metric kInstructions = {.name = "instructions",
+                              .kind = db::MetricKind::kTime,
+                              .test = Test::kRanks,
+                              .judges_pooled = true,
+                              .value =
+                                  [](const db::ResultRow& row) {
+                                    return count(static_cast<std::uint64_t>(row.instructions.value_or(0)));
+                                  },
+                              .of_machine = true};
 const Metric kMemory = {.name = "peak memory",
                         .kind = db::MetricKind::kMemory,
                         .value =
@@ -155,7 +155,7 @@ double Floors::of(const Metric& metric) const {
 
 std::string_view name(Verdict verdict) {
   constexpr std::string_view kNames[] = {"same",    "equivalent",   "improved",
-                                        "changed", "inconclusive", "regressed"};
+                                         "changed", "inconclusive", "regressed"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

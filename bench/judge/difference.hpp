@@ -61,18 +61,18 @@ extern const Metric kExpansions;
 extern const Metric kGenerations;
 extern const Metric kTries;
 extern const Metric kInstructions;
-extern const Metric kMemory;  ///< of two processes, which differ by themselves: it judges nothing
+extern const Metric kMemory;       ///< of two processes, which differ by themselves: it judges nothing
 extern const Metric kSweepTime;    ///< of sweeps, which did not run in turn: it judges nothing
 extern const Metric kProcessTime;  ///< of pairs of processes, by the gate
 extern const Metric kProcessMemory;
 
 /// Those of recorded results. A new metric is a row here and a constant above.
-inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess, &kFlowtime, &kMakespan,
-                                                     &kExpansions, &kGenerations, &kTries,
-                                                     &kInstructions, &kMemory, &kSweepTime};
+inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess,      &kFlowtime,    &kMakespan,
+                                                     &kExpansions,   &kGenerations, &kTries,
+                                                     &kInstructions, &kMemory,      &kSweepTime};
 
-/// Added to the bytes of both sides before they are compared: pages are counted in batches, so that a planning
-/// in less says nothing.
+/// Added to the bytes of both sides before they are compared: pages are counted in batches, so that a
+/// planning in less says nothing.
 inline constexpr double kMemoryGrainBytes = 1 << 20;
 
 /// Smallest effects that count, by kind of metric.
@@ -126,8 +126,8 @@ void evaluate(Difference& row);
 Difference measured(const Metric& metric, const std::vector<const db::PairedCell*>& cells,
                     std::optional<std::size_t> cell);
 
-/// Adjusts the p values of rows of recorded metrics that are judged together, gives verdicts to them, and says
-/// what they could have seen.
+/// Adjusts the p values of rows of recorded metrics that are judged together, gives verdicts to them, and
+/// says what they could have seen.
 void judge_recorded(const std::vector<Difference*>& family, const Floors& floors);
 
 /// Adjusts the p values of rows of kFreshPairs. Their verdicts wait for second_look().

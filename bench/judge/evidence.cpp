@@ -161,13 +161,16 @@ double detectable_losses(const std::vector<double>& nets, std::size_t plannings,
   const auto count = static_cast<double>(nets.size());
   const double z = db::statistics::normal_quantile(1 - level / 2);
   if (plannings == 0 || z * z >= count) return kInfinity;
-  const double mean = std::accumulate(nets.begin(), nets.end(), 0.0) / count;
-  double scatter = 0;  // of the sum of nets, without losses
-  for (const double net : nets) scatter += (net - mean) * (net - mean);
+  // The squares of nets without a change, which has made one side of them larger.
+  double lost = 0;
+  double gained = 0;
+  for (const double net : nets) (net > 0 ? lost : gained) += net * net;
+  const double scatter = 2 * std::min(lost, gained);
   // Of q losses the sum of nets is q, and that of their squares scatter + q + q^2 / count, for some instances
   // lose twice: the test finds q >= z sqrt(that), and no fewer than signs that all agree need.
   const double share_of_square = 1 - z * z / count;
-  const double found = (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
+  const double found =
+      (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
   const double least = std::max(found, std::ceil(1 - std::log2(level)));
   // So many or more come in 95 of 100 comparisons.
   const double power = db::statistics::normal_quantile(kPower);

@@ -130,15 +130,16 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
                                        : fmt::format(", most of all {:+.1f} %", effect);
   }
   text += " in " + judgement.cells[*worst->cell].name + doubt(*worst);
-  const auto all = std::count_if(
-      judgement.differences.begin(), judgement.differences.end(),
-      [worst](const Difference& row) { return row.cell && row.metric == worst->metric && !row.pairs.empty(); });
+  const auto all = std::count_if(judgement.differences.begin(), judgement.differences.end(),
+                                 [worst](const Difference& row) {
+                                   return row.cell && row.metric == worst->metric && !row.pairs.empty();
+                                 });
   if (cells > 1) text += fmt::format(" ({} of {} cells are like that)", cells, all);
   return text;
 }
 
 /// In the order in which people ask.
-constexpr const Metric* kInWords[] = {&kProcessTime, &kSuccess,     &kFlowtime, &kMakespan,    &kExpansions,
+constexpr const Metric* kInWords[] = {&kProcessTime, &kSuccess,      &kFlowtime, &kMakespan,     &kExpansions,
                                       &kGenerations, &kInstructions, &kTries,    &kProcessMemory};
 
 /// Raises cells and the whole by their rows, and says why.
@@ -159,12 +160,14 @@ void judge_metrics(Judgement& judgement, bool excused) {
       judgement.all.verdict = std::max(judgement.all.verdict, verdict);
     }
   }
-  for (const std::string& text : said) judgement.all.reason += (judgement.all.reason.empty() ? "" : "; ") + text;
+  for (const std::string& text : said)
+    judgement.all.reason += (judgement.all.reason.empty() ? "" : "; ") + text;
 }
 
 std::string changes_text(const Judged& judged) {
   const std::size_t work = judged.differing - judged.other_plans;
-  if (judged.other_plans == 0) return fmt::format("plans unchanged, other work in {} of {}", work, judged.compared);
+  if (judged.other_plans == 0)
+    return fmt::format("plans unchanged, other work in {} of {}", work, judged.compared);
   return fmt::format("{} of {} plannings changed", judged.other_plans, judged.compared);
 }
 
@@ -180,8 +183,8 @@ void judge_behaviour(Judgement& judgement) {
   for (const Finding& finding : judgement.findings) {
     if (finding.what.kind != ChangeKind::kRepetition) continue;
     for (Judged* judged : {&judgement.cells[finding.cell], &judgement.all}) {
-      judged->raise(Verdict::kRegressed, judgement.result(finding).instance +
-                                             " gives another result when it is planned again");
+      judged->raise(Verdict::kRegressed,
+                    judgement.result(finding).instance + " gives another result when it is planned again");
     }
   }
 }
@@ -211,8 +214,8 @@ void complete(Judged& judged, bool expected, const Difference* time, const Diffe
 std::string words(const Difference& row) {
   const double effect = percent(row.effect);
   if (row.metric == &kSuccess) {
-    return fmt::format("success {:+.1f} points: {} of {} plannings lost, {} gained (p = {:.2g})", -100 * row.effect,
-                       row.lost, row.plannings, row.gained, row.adjusted_p);
+    return fmt::format("success {:+.1f} points: {} of {} plannings lost, {} gained (p = {:.2g})",
+                       -100 * row.effect, row.lost, row.plannings, row.gained, row.adjusted_p);
   }
   if (row.metric != &kProcessTime) {
     return fmt::format("{} {:+.1f} %{}", row.metric->name, effect,
@@ -239,8 +242,9 @@ std::string sight_text(const Judgement& judgement) {
     // Where nothing differs, nothing is known of how changes scatter.
     if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
     const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
-                             : metric == &kSuccess ? fmt::format("from {:.1f} points on", 100 * row->detectable)
-                                                   : fmt::format("from {:.1f} % on", percent(row->detectable));
+                             : metric == &kSuccess
+                                 ? fmt::format("from {:.1f} points on", 100 * row->detectable)
+                                 : fmt::format("from {:.1f} % on", percent(row->detectable));
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, from);
   }
   return text;

@@ -27,7 +27,7 @@ struct Judged {
   std::size_t compared = 0;
   std::size_t differing = 0;
   std::size_t other_plans = 0;  ///< those that differ in more than work
-  std::size_t cut_short = 0;  ///< by the clock on a side, with equal status: plan and work are not compared
+  std::size_t cut_short = 0;    ///< by the clock on a side, with equal status: plan and work are not compared
   std::size_t base_solved = 0;
   std::size_t head_solved = 0;
   std::size_t both_solved = 0;

@@ -62,15 +62,16 @@ TextRow judged_row(const Judgement& judgement, const Difference& row, bool with_
   const double low = share ? row.at_most : row.at_least;
   const double high = share ? row.at_least : row.at_most;
   const std::string interval = std::isfinite(low) ? text(low) + " to " + text(high) : kNothing;
-  TextRow words = {std::string(row.metric->name),
-                   std::to_string(row.pairs.size()),
-                   text(row.effect),
-                   interval,
-                   p_text(row.effect < 0 && row.metric == &kProcessTime ? row.adjusted_faster_p : row.adjusted_p),
-                   !std::isfinite(row.detectable) ? kNothing
-                   : share                        ? fmt::format("{:.1f} points", 100 * row.detectable)
-                                                  : fmt::format("{:.1f} %", 100 * std::expm1(row.detectable)),
-                   std::string(name(*row.verdict))};
+  TextRow words = {
+      std::string(row.metric->name),
+      std::to_string(row.pairs.size()),
+      text(row.effect),
+      interval,
+      p_text(row.effect < 0 && row.metric == &kProcessTime ? row.adjusted_faster_p : row.adjusted_p),
+      !std::isfinite(row.detectable) ? kNothing
+      : share                        ? fmt::format("{:.1f} points", 100 * row.detectable)
+                                     : fmt::format("{:.1f} %", 100 * std::expm1(row.detectable)),
+      std::string(name(*row.verdict))};
   if (with_cell) words.insert(words.begin(), judgement.at(row.cell).name);
   return words;
 }
@@ -254,7 +255,8 @@ std::vector<TextRow> behaviour_table(const Judgement& judgement, bool times) {
   const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
   std::vector<TextRow> rows;
   for (std::size_t i = 0; i < judgement.cells.size(); ++i) {
-    if (!timed || judgement.cells[i].differing > 0) rows.push_back(behaviour_row(judgement, i, times && !timed));
+    if (!timed || judgement.cells[i].differing > 0)
+      rows.push_back(behaviour_row(judgement, i, times && !timed));
   }
   if (!rows.empty()) rows.push_back(behaviour_row(judgement, std::nullopt, times && !timed));
   return table({"cell", "instances", "differ", "solved", "lost", "gained", "p", "time", "PAR-2 [s]",
@@ -274,7 +276,8 @@ std::string report_text(const Report& report) {
   for (const auto& rows : {time_table(judgement), pooled_table(judgement), news_table(judgement)}) {
     if (!rows.empty()) text += terminal_table(rows, 1) + "\n";
   }
-  return text + report.notes + sees_text(judgement) + cells_text(judgement) + "\n" + headline(judgement) + "\n";
+  return text + report.notes + sees_text(judgement) + cells_text(judgement) + "\n" + headline(judgement) +
+         "\n";
 }
 
 std::string report_markdown(const Report& report) {
@@ -295,7 +298,8 @@ std::string report_markdown(const Report& report) {
   }
   const std::vector<TextRow> behaviour = behaviour_table(judgement, false);
   if (!behaviour.empty()) {
-    fold("Behaviour in each cell", markdown_table(behaviour, 1) + "\n" + block(behaviour_notes(judgement, false)));
+    fold("Behaviour in each cell",
+         markdown_table(behaviour, 1) + "\n" + block(behaviour_notes(judgement, false)));
   }
   const std::vector<TextRow> times = time_table(judgement);
   if (!times.empty()) fold("Time in each cell, head over base", markdown_table(times, 1));

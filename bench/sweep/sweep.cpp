@@ -100,8 +100,7 @@ bool Sweep::begin() {
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
 Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
-                                                     const SweepCase& parameters,
-                                                     PeakMemory& memory) const {
+                                                     const SweepCase& parameters, PeakMemory& memory) const {
   if (!prepared.broken.empty()) {
     db::ResultRow row;
     row.message = prepared.broken;

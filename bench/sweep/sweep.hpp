@@ -75,8 +75,8 @@ class Sweep {
  private:
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
-  Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared,
-                                                const SweepCase& parameters, PeakMemory& memory) const;
+  Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared, const SweepCase& parameters,
+                                                PeakMemory& memory) const;
 
   std::vector<InstanceSet> sets_;
   std::vector<SweepEntry> entries_;

@@ -178,7 +178,8 @@ TEST(GateEvidence, AFasterHeadIsAnImprovementWhenFreshPairsSayItToo) {
   judgement.differences.push_back(all);
   judge(judgement, {});
   EXPECT_EQ(judgement.all.verdict, Verdict::kImproved);
-  EXPECT_EQ(judgement.all.reason.find("faster: 4.9 % less time (95 %: 4.9 to 4.9)"), 0U) << judgement.all.reason;
+  EXPECT_EQ(judgement.all.reason.find("faster: 4.9 % less time (95 %: 4.9 to 4.9)"), 0U)
+      << judgement.all.reason;
 }
 
 TEST(GateEvidence, WhatItSaysThatItSeesIsWhatItSees) {

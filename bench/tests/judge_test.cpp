@@ -149,7 +149,8 @@ TEST(Judgement, OneLostMayBeChanceAndManyAreNot) {
   const Judgement result = judgement_of(cells);
   EXPECT_EQ(result.all.verdict, Verdict::kRegressed);
   EXPECT_DOUBLE_EQ(row(result, kSuccess, std::nullopt).adjusted_p, 7 * 2.0 / 4096);
-  EXPECT_EQ(result.all.reason.find("success -30.0 points: 12 of 40 plannings lost, 0 gained (p = 0.0034)"), 0U)
+  EXPECT_EQ(result.all.reason.find("success -30.0 points: 12 of 40 plannings lost, 0 gained (p = 0.0034)"),
+            0U)
       << result.all.reason;
 }
 
@@ -246,8 +247,7 @@ TEST(Judgement, WhatNoCellCanTellAllCellsTogetherDo) {
   // Three instances a cell, as in suite smoke: no p value of a cell is below 0.25.
   const Judgement result = judgement_of(slower_arrivals(16, 3, 1.143));
   EXPECT_EQ(result.all.verdict, Verdict::kRegressed);
-  EXPECT_EQ(result.all.reason,
-            "flowtime +14.3 % (95 %: +14.3 to +14.3); 48 of 48 plannings changed");
+  EXPECT_EQ(result.all.reason, "flowtime +14.3 % (95 %: +14.3 to +14.3); 48 of 48 plannings changed");
   EXPECT_EQ(result.cells[0].verdict, Verdict::kChanged);
 }
 
@@ -271,8 +271,9 @@ TEST(Judgement, BetterIsAVerdictToo) {
   }
   const Judgement result = judgement_of(cells);
   EXPECT_EQ(result.all.verdict, Verdict::kImproved);
-  EXPECT_EQ(result.all.reason.find("expansions -50.0 % (95 %: -50.0 to -50.0), most of all -50.0 % in warehouse, 64 robots "
-                                   "(2 of 2 cells are like that)"),
+  EXPECT_EQ(result.all.reason.find(
+                "expansions -50.0 % (95 %: -50.0 to -50.0), most of all -50.0 % in warehouse, 64 robots "
+                "(2 of 2 cells are like that)"),
             0U)
       << result.all.reason;
 }
@@ -302,7 +303,8 @@ TEST(Judgement, MemoryOfTwoProcessesInformsAlone) {
 
 TEST(Judgement, ATestOfRanksDoesNotSpeakForAMeanThatGoesTheOtherWay) {
   std::vector<db::PairedCell> cells = slower_arrivals(1, 40, 0.99);
-  for (std::size_t i = 0; i < 3; ++i) cells[0].results[i].head.flowtime_s = *cells[0].results[i].base.flowtime_s * 1.5;
+  for (std::size_t i = 0; i < 3; ++i)
+    cells[0].results[i].head.flowtime_s = *cells[0].results[i].base.flowtime_s * 1.5;
   const Judgement result = judgement_of(cells);
   EXPECT_GT(row(result, kFlowtime, std::nullopt).effect, 0.01);
   EXPECT_LT(row(result, kFlowtime, std::nullopt).adjusted_p, kRecordedLevel);
@@ -317,11 +319,13 @@ TEST(Judgement, SaysWhatItCouldHaveSeen) {
   }
   const Judgement result = judgement_of(cells);
   // A standard error of 0.00101, the normal quantiles of 1 - 0.01 / 7 / 2 and 0.95.
-  EXPECT_NEAR(row(result, kFlowtime, std::nullopt).detectable, (3.189 + 1.645) * 0.001005 / std::sqrt(0.9549), 2e-5);
-  EXPECT_NE(report_text({result, "sipplab compare", "a", "b"})
-                .find("sees, 19 times of 20, with 100 plannings of 100 instances: success from 18.4 points on, "
-                      "flowtime from 0.5 % on"),
-            std::string::npos)
+  EXPECT_NEAR(row(result, kFlowtime, std::nullopt).detectable, (3.189 + 1.645) * 0.001005 / std::sqrt(0.9549),
+              2e-5);
+  EXPECT_NE(
+      report_text({result, "sipplab compare", "a", "b"})
+          .find("sees, 19 times of 20, with 100 plannings of 100 instances: success from 18.4 points on, "
+                "flowtime from 0.5 % on"),
+      std::string::npos)
       << report_text({result, "sipplab compare", "a", "b"});
 }
 
@@ -381,8 +385,9 @@ TEST(Judgement, TheWorstCellIsNamedAndTheOthersAreCounted) {
   }
   const Judgement result = judgement_of(cells);
   EXPECT_EQ(result.all.reason.find("flowtime +2.0 % (95 %: "), 0U) << result.all.reason;
-  EXPECT_NE(result.all.reason.find(", most of all +4.0 % in warehouse, 66 robots (2 of 3 cells are like that)"),
-            std::string::npos)
+  EXPECT_NE(
+      result.all.reason.find(", most of all +4.0 % in warehouse, 66 robots (2 of 3 cells are like that)"),
+      std::string::npos)
       << result.all.reason;
   EXPECT_EQ(result.cells[0].verdict, Verdict::kSame);
   EXPECT_EQ(result.cells[1].verdict, Verdict::kRegressed);
