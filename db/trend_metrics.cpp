@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "db/thresholds.hpp"
 #include "db/trends.hpp"
 
 namespace sipplab::db {
@@ -44,8 +45,9 @@ constexpr const char* kBenchmarks =
 std::vector<TrendMetric> make_metrics() {
   // Effects: what does not depend on the clock has no noise, so any change that a person would
   // notice counts; times of shared machines wander by a few per cent.
-  constexpr double kTimeEffect = 0.05;
-  constexpr double kWorkEffect = 0.005;
+  constexpr double kTimeEffect = kUnpairedTimeFloor;
+  constexpr double kWorkEffect = floor_of(MetricKind::kCounts);
+  constexpr double kQualityEffect = floor_of(MetricKind::kQuality);
   constexpr double kRateEffect = 0.01;
   return {
       {"success", "share of instances solved", "", true, false, true, kRateEffect, true,
@@ -58,9 +60,9 @@ std::vector<TrendMetric> make_metrics() {
        "max_planning_time_s"},
       {"par2", "mean planning time, unsolved ones counted as twice the limit", "s", false, true, true,
        kTimeEffect, false, "par2_time_s"},
-      {"makespan", "mean makespan of solved instances", "s", false, false, true, kWorkEffect, false,
+      {"makespan", "mean makespan of solved instances", "s", false, false, true, kQualityEffect, false,
        "mean_makespan_s"},
-      {"flowtime", "mean flowtime of solved instances", "s", false, false, true, kWorkEffect, false,
+      {"flowtime", "mean flowtime of solved instances", "s", false, false, true, kQualityEffect, false,
        "mean_flowtime_s"},
       {"tries", "mean priority orders tried", "", false, false, true, kWorkEffect, false, "mean_tries"},
       {"expansions", "mean nodes expanded", "", false, false, true, kWorkEffect, false, "mean_expansions"},

@@ -36,7 +36,7 @@ int run_compare(const CompareArguments& arguments) {
                                         " share no case and instance, expected runs of one suite");
   }
   bench::JudgeOptions options;
-  if (arguments.exact) options.changed = bench::Verdict::kRegressed;
+  options.floors = floors_of(arguments.report);
   bench::judge(judgement, options);
   const auto side = [](const db::ComparisonSide& named) -> nlohmann::ordered_json {
     return {{"title", named.title},
@@ -46,7 +46,9 @@ int run_compare(const CompareArguments& arguments) {
   report.details = {{"base", side(base)}, {"head", side(head)}};
   report.all_findings = "--list";
   if (arguments.list) report.listed = std::numeric_limits<std::size_t>::max();
-  return print_report(report, arguments.report);
+  ReportFlags flags = arguments.report;
+  flags.expects_changes = !arguments.exact;
+  return print_report(report, flags);
 }
 
 }  // namespace
@@ -58,12 +60,13 @@ Command add_compare_command(CLI::App& program) {
   command->footer(
       "A and B are `latest`, a run's UUID or a commit's hash (four digits or more of either), or a branch;\n"
       "`run:`, `commit:` or `branch:` before it says which. For a commit, the newest result of each case\n"
-      "counts. Exit codes: 0 same, or changed and nothing worse; 1 regressed (fewer solved, invalid plans,\n"
-      "longer flowtimes); 3 inconclusive (fewer solved, which may be chance); 4 nothing comparable.");
+      "counts. Judged over all cells together, then in each: success, flowtime, makespan, expansions,\n"
+      "generations, tries, instructions, memory. Exit codes: 0 nothing is worse for certain; 1 regressed;\n"
+      "3 inconclusive (worse, which may be chance); 4 nothing comparable; with --exact 5 other plans.");
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();
   command->add_option("B", arguments->head, "head: what is judged")->required();
   add_database_flag(*command, arguments->database);
-  command->add_flag("--exact", arguments->exact, "any difference is a regression");
+  command->add_flag("--exact", arguments->exact, "exit code 5 if plans differ");
   command->add_flag("--list", arguments->list, "list every flip and difference, not just the first ten");
   add_report_flags(*command, arguments->report);
   return {command, [arguments] { return run_compare(*arguments); }};

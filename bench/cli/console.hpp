@@ -18,6 +18,7 @@ enum ExitCode : int {
   kBadUsage = 2,         ///< bad usage or input, and output that cannot be written
   kInconclusive = 3,
   kNothingComparable = 4,
+  kChangedPlans = 5,  ///< nothing is worse for certain, and no one said that plans would differ
   kInternalError = 70,
 };
 

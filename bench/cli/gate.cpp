@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
@@ -20,6 +21,7 @@
 #include "bench/gate/worker.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/sweep/suites.hpp"
+#include "db/comparisons.hpp"
 #include "db/gate_runs.hpp"
 #include "planner/io/text.hpp"
 
@@ -34,9 +36,11 @@ constexpr std::uint64_t kInstanceSeed = 1;
 struct GateArguments {
   bool serve = false;
   bool timed_only = false;
+  bool quick = false;
   std::string base;
   std::string head;
   bool calibrate = false;
+  std::vector<std::string> sweeps;
   std::size_t comparisons = 5;
   std::optional<std::string> database;
   ReportFlags report;
@@ -98,7 +102,18 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
 }
 
 int run_comparison(const GateArguments& arguments, const bench::GateCases& cases, db::Database& database) {
-  const bench::GateRequest& request = arguments.request;
+  bench::GateRequest request = arguments.request;
+  request.floors = floors_of(arguments.report);
+  request.expects_changes = arguments.report.expects_changes;
+  if (!arguments.sweeps.empty()) {
+    const auto base = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.sweeps.front()));
+    const auto head = SIPPLAB_TRY_OR(fail, db::resolve_side(database, arguments.sweeps.back()));
+    request.sweeps = SIPPLAB_TRY_OR(fail, db::paired_cells(database, base, head));
+    if (request.sweeps.empty()) {
+      return fail(kNothingComparable, "sipplab: " + base.title + " and " + head.title +
+                                          " share no case and instance, expected runs of one suite");
+    }
+  }
   const auto noise = SIPPLAB_TRY_OR(fail, db::gate_noise(database, bench::gate_kind(request)));
   Expected<bench::GateResult, std::string> result = Unexpected{std::string()};
   {
@@ -138,13 +153,24 @@ int run_gate(const GateArguments& given) {
     *build = SIPPLAB_TRY_OR(bad_usage, bench::find_program(*build));
   }
   arguments.request.builds = {arguments.base, arguments.head, {}};
-  for (const char* variable : {bench::kSlowdownVariable, bench::kChangeVariable}) {
+  for (const char* variable : {bench::kSlowdownVariable, bench::kIntoVariable, bench::kChangeVariable}) {
     const char* value = std::getenv(variable);
     if (value == nullptr || arguments.calibrate) continue;
     arguments.request.builds.head_extras.push_back(fmt::format("{}={}", variable, value));
   }
-  const auto cases = SIPPLAB_TRY_OR(
-      bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, arguments.timed_only));
+  bench::GateCases::Extent extent;
+  extent.exact = !arguments.timed_only;
+  extent.crowded = extent.laboratory = !arguments.quick;
+  for (const auto& [program, title] : {std::pair(arguments.base, "base"), {arguments.head, "head"}}) {
+    const auto worker =
+        SIPPLAB_TRY_OR(bad_usage, bench::WorkerProcess::start({program, title, std::nullopt, {}}));
+    if (worker.greeting().protocol >= bench::kGateProtocol) continue;
+    diagnose(
+        fmt::format("the {} build is older: crowded cells and what is not the planner are left out", title));
+    extent.crowded = extent.laboratory = false;
+  }
+  const auto cases =
+      SIPPLAB_TRY_OR(bad_usage, bench::GateCases::make(arguments.request.suite, kInstanceSeed, extent));
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   bench::catch_interrupts();
   return arguments.calibrate ? run_calibration(arguments, cases, database)
@@ -173,14 +199,17 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
   command.add_option("--suite", request.suite, "suite to time: gate, smoke or density")
       ->check(check_suite)
       ->capture_default_str();
-  command.add_flag("--allow-changes", request.allow_changes,
-                   "plans may change: judge only time, validity and the number solved");
+  command.add_flag("--expect-changes,--allow-changes", arguments.report.expects_changes,
+                   "plans are meant to differ: exit code 0 if nothing is worse");
+  command.add_option("--sweeps", arguments.sweeps, "judge these two recorded runs of the builds as well")
+      ->type_name("BASE HEAD")
+      ->expected(2);
   command
       .add_option("--tolerance", request.tolerance, "slowdown to rule out before two builds are equivalent")
       ->check(real_between(0.001, 10))
       ->capture_default_str();
   command.add_option("--pairs", request.pairs, "number of pairs of processes")
-      ->check(CLI::Range(std::size_t{5}, std::size_t{1000}))
+      ->check(CLI::Range(std::size_t{6}, std::size_t{1000}))
       ->capture_default_str();
   command.add_option("--pair-seconds", request.budget.seconds, "seconds that each pair plans")
       ->check(real_between(0.01, 600))
@@ -190,10 +219,12 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
       ->capture_default_str();
   add_database_flag(command, arguments.database);
   add_report_flags(command, arguments.report);
-  // For scripts and tests: what a judged build is started with; a short exact tier; short pairs;
+  // For scripts and tests: what a judged build is started with; a short exact tier; no
+  // crowded cells and nothing that is not the planner; short pairs;
   // the same program as if it were two.
   command.add_flag("--serve", arguments.serve)->group("");
   command.add_flag("--timed-only", arguments.timed_only)->group("");
+  command.add_flag("--short-cells", arguments.quick)->group("");
   command.add_option("--fewest-rounds", request.budget.fewest_rounds)->group("")->check(CLI::Range(1, 1000));
   command.add_flag("--treat-as-different", request.treat_as_different)->group("");
 }
@@ -205,8 +236,8 @@ Command add_gate_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("gate", "compare two builds on this machine, now: same plans, same speed?");
   command->footer(
-      "Exit codes: 0 equivalent, 1 regressed, 3 inconclusive. Takes 10 to 20 seconds, or 25 if\n"
-      "fresh processes have to confirm a suspicion.");
+      "Exit codes: 0 equivalent or improved, 1 regressed, 3 inconclusive, 5 other plans and none worse for\n"
+      "certain (0 with --expect-changes).");
   add_flags(*command, *arguments);
   return {command, [arguments] { return run_gate(*arguments); }};
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "bench/judge/case_words.hpp"
 #include "bench/judge/evidence.hpp"
 #include "db/identity.hpp"
 
@@ -63,11 +65,19 @@ class Comparison {
     answers_ = std::move(*answers);
     std::vector<std::string> names;
     for (const GateCell& cell : cases_.cells()) names.push_back(cell.name);
-    result_.judgement = measured(paired_cells(), std::move(names));
-    add_times(std::nullopt);
-    for (std::size_t cell = 0; cell < cases_.cells().size(); ++cell) {
-      if (cases_.cells()[cell].timed) add_times(cell);
+    std::vector<db::PairedCell> cells = paired_cells();
+    std::vector<db::CaseInfo> swept;
+    for (const db::PairedCell& cell : request_.sweeps) {
+      cells.push_back(cell);
+      swept.push_back(cell.parameters);
     }
+    for (std::string& name : case_words(swept)) names.push_back(std::move(name));
+    result_.judgement = measured(std::move(cells), std::move(names));
+    add_row(kProcessTime, std::nullopt);
+    for (std::size_t cell = 0; cell < cases_.cells().size(); ++cell) {
+      if (cases_.cells()[cell].timed) add_row(kProcessTime, cell);
+    }
+    add_row(kProcessMemory, std::nullopt);
     return "";
   }
 
@@ -76,6 +86,7 @@ class Comparison {
     for (const GateCell& cell : cases_.cells()) {
       db::PairedCell paired;
       paired.parameters = cell.row;
+      paired.same_machine = true;
       for (const std::size_t job : cell.jobs) {
         const db::InstanceInfo& instance = cases_.jobs()[job].row;
         paired.results.push_back(
@@ -87,9 +98,9 @@ class Comparison {
     return cells;
   }
 
-  void add_times(std::optional<std::size_t> cell) {
+  void add_row(const Metric& metric, std::optional<std::size_t> cell) {
     Difference row;
-    row.metric = &kProcessTime;
+    row.metric = &metric;
     row.cell = cell;
     result_.judgement.differences.push_back(std::move(row));
   }
@@ -105,11 +116,14 @@ class Comparison {
       if (!times) return times.error();
       note_repetition(*times);
       std::vector<double> all;
-      for (const std::vector<double>& ratios : times->log_ratios) {
-        all.insert(all.end(), ratios.begin(), ratios.end());
+      for (std::size_t cell = 0; cell < times->log_ratios.size(); ++cell) {
+        if (cases_.cells()[cell].task != GateTask::kPlan) continue;
+        all.insert(all.end(), times->log_ratios[cell].begin(), times->log_ratios[cell].end());
       }
-      for (Difference* row : time_rows(result_.judgement)) {
-        const std::vector<double>& ratios = row->cell ? times->log_ratios[*row->cell] : all;
+      for (Difference* row : paired_rows(result_.judgement)) {
+        const std::vector<double>& ratios = row->metric == &kProcessMemory ? times->memory_log_ratios
+                                            : row->cell                    ? times->log_ratios[*row->cell]
+                                                                           : all;
         if (!ratios.empty()) store(*row, interquartile_mean(ratios));
       }
     }
@@ -138,9 +152,13 @@ class Comparison {
                    [](Difference& row, double log_ratio) { row.pairs.push_back(log_ratio); });
     if (!error.empty()) return error;
     update_noise(request_, cases_, noise_, result_);
-    const std::vector<Difference*> rows = time_rows(result_.judgement);
-    for (Difference* row : rows) evaluate(*row);
-    judge_rows(rows);
+    const std::vector<Difference*> rows = paired_rows(result_.judgement);
+    std::map<const Metric*, std::vector<Difference*>> families;
+    for (Difference* row : rows) {
+      evaluate(*row);
+      families[row->metric].push_back(row);
+    }
+    for (const auto& [metric, family] : families) judge_times(family);
     return "";
   }
 
@@ -148,8 +166,8 @@ class Comparison {
     const double tolerance = std::log1p(request_.tolerance);
     std::vector<bool> wanted(cases_.cells().size(), false);
     std::vector<const Difference*> doubtful;
-    for (const Difference* row : time_rows(result_.judgement)) {
-      if (!needs_second_look(*row, tolerance)) continue;
+    for (const Difference* row : paired_rows(result_.judgement)) {
+      if (row->pairs.empty() || !needs_second_look(*row, tolerance)) continue;
       doubtful.push_back(row);
       for (std::size_t cell = 0; cell < wanted.size(); ++cell) {
         if (cases_.cells()[cell].timed && row->cell.value_or(cell) == cell) wanted[cell] = true;
@@ -164,15 +182,16 @@ class Comparison {
           });
       if (!error.empty()) return error;
     }
-    for (Difference* row : time_rows(result_.judgement)) bench::second_look(*row, tolerance);
+    for (Difference* row : paired_rows(result_.judgement)) {
+      if (!row->pairs.empty()) bench::second_look(*row, tolerance);
+    }
     return "";
   }
 
   void give_verdict() {
     JudgeOptions options;
-    options.changed = request_.allow_changes ? Verdict::kEquivalent : Verdict::kRegressed;
-    options.quality = false;
-    options.tolerance = request_.tolerance;
+    options.floors = request_.floors;
+    options.expects_changes = request_.expects_changes;
     const std::string& program = result_.base.build.binary_hash;
     if (!program.empty() && program == result_.head.build.binary_hash && !request_.treat_as_different) {
       options.times_excuse = "both are the same program: what the clock says is noise";
@@ -195,6 +214,12 @@ std::optional<double> finite(double log_ratio) {
   return std::expm1(log_ratio);
 }
 
+/// The history has one word for all verdicts that are not bad. What is faster has a slowdown below zero, and
+/// what differs is counted.
+std::string_view recorded_name(Verdict verdict) {
+  return name(verdict < Verdict::kInconclusive ? Verdict::kEquivalent : verdict);
+}
+
 std::vector<double> slowdowns(const std::vector<double>& log_ratios) {
   std::vector<double> values;
   for (const double log_ratio : log_ratios) values.push_back(std::expm1(log_ratio));
@@ -203,10 +228,10 @@ std::vector<double> slowdowns(const std::vector<double>& log_ratios) {
 
 }  // namespace
 
-std::vector<Difference*> time_rows(Judgement& judgement) {
+std::vector<Difference*> paired_rows(Judgement& judgement) {
   std::vector<Difference*> rows;
   for (Difference& row : judgement.differences) {
-    if (row.metric == &kProcessTime) rows.push_back(&row);
+    if (row.metric->test == Test::kFreshPairs) rows.push_back(&row);
   }
   return rows;
 }
@@ -223,13 +248,14 @@ db::GateKind gate_kind(const GateRequest& request) {
 
 void update_noise(const GateRequest& request, const GateCases& cases, const std::vector<db::GateNoise>& noise,
                   GateResult& result) {
-  const std::vector<Difference*> rows = time_rows(result.judgement);
-  const GatePlan plan{request.pairs, request.fresh_pairs, rows.size()};
+  const std::vector<Difference*> rows = paired_rows(result.judgement);
   for (Difference* row : rows) {
-    const RowNoise before = calibrated(*row, cases, noise);
-    result.calibrations = before.comparisons;
+    const bool is_time = row->metric == &kProcessTime;
+    const GatePlan plan{request.pairs, request.fresh_pairs, is_time ? rows.size() - 1 : 1};
+    const RowNoise before = is_time ? calibrated(*row, cases, noise) : RowNoise();
+    if (is_time) result.calibrations = before.comparisons;
     row->noise = standard_error(before.pairs.empty() ? row->pairs : before.pairs, request.pairs);
-    row->floor = floor_from(row->noise);
+    row->floor = floor_from(row->noise, request.floors.of(*row->metric));
     // What can be seen is the worse of then and now: the machine may be busier.
     row->detectable = detectable(row->pairs, plan, row->floor);
     if (before.pairs.empty()) continue;
@@ -258,7 +284,7 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
   const Judgement& judgement = result.judgement;
   run.compared = static_cast<std::int64_t>(judgement.all.compared);
   run.differing = static_cast<std::int64_t>(judgement.all.differing);
-  run.verdict = name(judgement.all.verdict);
+  run.verdict = recorded_name(judgement.all.verdict);
   run.reason = judgement.all.reason;
   for (const Difference& row : judgement.differences) {
     if (row.metric != &kProcessTime) continue;
@@ -274,12 +300,13 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
     cell.noise = row.noise;
     cell.effect_floor = row.floor;
     cell.detectable = finite(row.detectable);
-    cell.verdict = name(*row.verdict);
+    cell.verdict = recorded_name(*row.verdict);
     cell.pairs = slowdowns(row.pairs);
     cell.fresh_pairs = slowdowns(row.fresh_pairs);
     run.cells.push_back(std::move(cell));
   }
   for (const Finding& finding : judgement.findings) {
+    if (finding.cell >= cases.cells().size()) continue;  // of a sweep, whose results are in the history
     const GateCell& cell = cases.cells()[finding.cell];
     run.differences.push_back({cell.row, cases.jobs()[cell.jobs[finding.result]].row,
                                std::string(name(finding.what.kind)), finding.what.base, finding.what.head});

@@ -18,11 +18,14 @@ struct GateRequest {
   GateBuilds builds;
   std::string suite = "gate";
   std::uint64_t seed = 1;       ///< of the order of plannings; the instances are always the same
-  std::size_t pairs = 12;       ///< 11 of 12 above zero are what the strictest Holm step asks
+  std::size_t pairs = 14;       ///< 13 of 14 above zero are what the strictest Holm step asks
   std::size_t fresh_pairs = 8;  ///< 7 of 8 confirm
   PairBudget budget;
-  double tolerance = 0.05;          ///< a slowdown that must be ruled out for "equivalent"
-  bool allow_changes = false;       ///< other plans are meant
+  double tolerance = 0.05;  ///< a slowdown that must be ruled out for "equivalent"
+  Floors floors;
+  bool expects_changes = false;  ///< other plans are meant
+  /// Sweeps of both builds, judged with the rest.
+  std::vector<db::PairedCell> sweeps = {};
   bool treat_as_different = false;  ///< judge times even if both programs are the same file
 };
 
@@ -32,11 +35,13 @@ struct GateResult {
   std::string started_utc;
   double wall_s = 0;
   std::size_t calibrations = 0;  ///< comparisons of equal builds behind the noise
-  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones
+  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones;
+                                 ///< then come those of sweeps
 };
 
-/// Times of all cells together, then of each timed cell.
-std::vector<Difference*> time_rows(Judgement& judgement);
+/// What pairs of processes gave: times of all cells together, then of each timed cell, then the memory of
+/// all.
+std::vector<Difference*> paired_rows(Judgement& judgement);
 
 /// Called with one line whenever something new is under way.
 using GateProgress = std::function<void(const std::string&)>;

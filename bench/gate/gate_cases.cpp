@@ -16,20 +16,47 @@ namespace {
 
 /// Every kind of case once: what the timed cells leave out.
 constexpr const char* kExactSuite = "smoke";
+constexpr const char* kTimedSuite = "gate";
+constexpr const char* kCrowdedSuite = "gate-crowded";
 
 }  // namespace
 
 Expected<GateCases, std::string> GateCases::make(const std::string& suite, std::uint64_t seed,
-                                                 bool timed_only) {
+                                                 const Extent& extent) {
   auto folder = SIPPLAB_TRY(TemporaryFolder::make());
   GateCases cases(std::move(folder));
-  std::string error = cases.add_suite(suite, seed, true);
-  if (error.empty() && !timed_only && suite != kExactSuite) error = cases.add_suite(kExactSuite, seed, false);
+  std::string error = cases.add_suite(suite, seed, true, false);
+  if (error.empty() && extent.laboratory) cases.add_laboratory();
+  if (error.empty() && extent.crowded && suite == kTimedSuite) {
+    error = cases.add_suite(kCrowdedSuite, seed, true, true);
+  }
+  if (error.empty() && extent.exact && suite != kExactSuite) {
+    error = cases.add_suite(kExactSuite, seed, false, false);
+  }
   if (!error.empty()) return Unexpected{error};
   return cases;
 }
 
-std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed) {
+void GateCases::add_laboratory() {
+  // With what the last cell plans: the largest instances of the suite.
+  const GateCell planned = cells_.back();
+  for (const GateTask task : kLaboratoryTasks) {
+    GateCell cell = planned;
+    cell.name = fmt::format("laboratory: {}", name(task));
+    cell.row.planner = fmt::format("laboratory:{}", name(task));
+    cell.task = task;
+    cell.jobs.clear();
+    for (const std::size_t number : planned.jobs) {  // a history is the same for each: they are repetitions
+      GateJob job = jobs_[number];
+      job.cell = cells_.size();
+      cell.jobs.push_back(jobs_.size());
+      jobs_.push_back(std::move(job));
+    }
+    cells_.push_back(std::move(cell));
+  }
+}
+
+std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow) {
   SweepRequest request;
   request.suite = find_suite(name);
   if (request.suite == nullptr) return fmt::format("no suite '{}'", name);
@@ -46,7 +73,7 @@ std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bo
   const std::vector<std::string> names = case_words(rows);
   for (std::size_t number = 0; number < rows.size(); ++number) {
     const SweepCase& parameters = sweep->cases[number].parameters;
-    GateCell cell{names[number], rows[number], parameters.options, timed, {}};
+    GateCell cell{names[number], rows[number], parameters.options, GateTask::kPlan, timed, slow, {}};
     for (const PreparedInstance& prepared : sweep->sets[parameters.set].instances) {
       const auto [place, is_new] = known.emplace(prepared.row.content_hash, files_.size());
       if (is_new) {
@@ -75,7 +102,7 @@ Expected<std::size_t, std::string> GateCases::hand_over(WorkerProcess& worker, b
                           "equal content hashes"};
       }
     }
-    SIPPLAB_TRY(worker.add_job(job.instance, cells_[job.cell].options));
+    SIPPLAB_TRY(worker.add_job(job.instance, cells_[job.cell].options, cells_[job.cell].task));
     ++count;
   }
   return count;

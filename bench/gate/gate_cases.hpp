@@ -24,17 +24,23 @@ struct GateCell {
   std::string name;  ///< for people
   db::CaseInfo row;
   PlannerOptions options;
+  GateTask task = GateTask::kPlan;
   bool timed = false;
+  bool slow = false;  ///< planned fewer times
   std::vector<std::size_t> jobs;
 };
 
 /// Instances lie in a folder of their own, which is removed at the end.
 class GateCases {
  public:
-  /// Makes the instances and writes them as files. `timed_only`: without the smoke suite.
-  /// Errors: one line.
+  struct Extent {
+    bool exact = true;       ///< the smoke suite
+    bool crowded = true;     ///< what takes longer: beside suite gate those of gate-crowded
+    bool laboratory = true;  ///< the tasks beside planning
+  };
+  /// Makes the instances and writes them as files. Errors: one line.
   static Expected<GateCases, std::string> make(const std::string& suite, std::uint64_t seed,
-                                               bool timed_only = false);
+                                               const Extent& extent);
 
   const std::vector<GateCell>& cells() const { return cells_; }
   const std::vector<GateJob>& jobs() const { return jobs_; }
@@ -45,7 +51,8 @@ class GateCases {
 
  private:
   explicit GateCases(TemporaryFolder folder) : folder_(std::move(folder)) {}
-  std::string add_suite(const std::string& name, std::uint64_t seed, bool timed);
+  std::string add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow);
+  void add_laboratory();
 
   TemporaryFolder folder_;
   std::vector<std::string> files_;

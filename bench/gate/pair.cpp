@@ -6,6 +6,7 @@
 
 #include "bench/interrupt.hpp"
 #include "bench/judge/change.hpp"
+#include "bench/judge/difference.hpp"
 #include "planner/core/try.hpp"
 
 namespace sipplab::bench {
@@ -50,8 +51,8 @@ Expected<WorkerPair, std::string> start_pair(const GateBuilds& builds, const Gat
 Expected<FirstAnswers, std::string> plan_all(WorkerPair& workers, const GateCases& cases) {
   FirstAnswers answers;
   for (std::size_t job = 0; job < cases.jobs().size(); ++job) {
-    const auto base = SIPPLAB_TRY(workers.base.plan(job, true));
-    const auto head = SIPPLAB_TRY(workers.head.plan(job, true));
+    const auto base = SIPPLAB_TRY(workers.base.plan(job, WorkerProcess::Ask::kVerdict));
+    const auto head = SIPPLAB_TRY(workers.head.plan(job, WorkerProcess::Ask::kVerdict));
     answers.base.push_back(base.row);
     answers.head.push_back(head.row);
     if (interrupted_by() != 0) return Unexpected{std::string("interrupted")};
@@ -63,7 +64,7 @@ Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases&
                                            const std::vector<bool>& wanted, const FirstAnswers& expected,
                                            const PairBudget& budget, Random& random) {
   using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
+  Clock::time_point fast_begin = Clock::now();  // the budget is that of cells that are not slow
   PairTimes times;
   times.log_ratios.resize(cases.cells().size());
   std::vector<std::size_t> jobs = timed_jobs(cases, wanted);
@@ -76,18 +77,27 @@ Expected<PairTimes, std::string> time_pair(WorkerPair& workers, const GateCases&
     times.unrepeatable_head = head;
   };
   for (int round = 0; round < budget.fewest_rounds ||
-                      std::chrono::duration<double>(Clock::now() - begin).count() < budget.seconds;
+                      std::chrono::duration<double>(Clock::now() - fast_begin).count() < budget.seconds;
        ++round) {
+    if (round == budget.slow_rounds) {
+      std::erase_if(jobs, [&cases](std::size_t job) { return cases.cells()[cases.jobs()[job].cell].slow; });
+      fast_begin = Clock::now();
+    }
+    if (jobs.empty()) break;
     random.shuffle(jobs);
     for (const std::size_t job : jobs) {
       const bool head_first = random.below(2) == 1;
-      auto first = SIPPLAB_TRY((head_first ? workers.head : workers.base).plan(job, false));
-      auto second = SIPPLAB_TRY((head_first ? workers.base : workers.head).plan(job, false));
+      const WorkerProcess::Ask ask = round == 0 ? WorkerProcess::Ask::kPages : WorkerProcess::Ask::kClock;
+      auto first = SIPPLAB_TRY((head_first ? workers.head : workers.base).plan(job, ask));
+      auto second = SIPPLAB_TRY((head_first ? workers.base : workers.head).plan(job, ask));
       const WorkerAnswer& base = head_first ? second : first;
       const WorkerAnswer& head = head_first ? first : second;
       note_repetition(expected.base[job], base.row, job, false);
       note_repetition(expected.head[job], head.row, job, true);
       times.log_ratios[cases.jobs()[job].cell].push_back(log_ratio(base, head));
+      if (base.row.peak_memory_bytes && head.row.peak_memory_bytes) {
+        times.memory_log_ratios.push_back(std::log(kMemory.value(head.row) / kMemory.value(base.row)));
+      }
     }
     if (interrupted_by() != 0) return Unexpected{std::string("interrupted")};
   }

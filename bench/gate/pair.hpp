@@ -34,6 +34,8 @@ Expected<WorkerPair, std::string> start_pair(const GateBuilds& builds, const Gat
 /// head's time over base's, one for each two plannings of a job one after the other.
 struct PairTimes {
   std::vector<std::vector<double>> log_ratios;
+  /// Of the first round: one for each planning, of what it took beyond what its process held.
+  std::vector<double> memory_log_ratios;
   /// Job and build of the first answer that was not what the build had answered before.
   std::optional<std::size_t> unrepeatable_job;
   bool unrepeatable_head = false;
@@ -48,10 +50,11 @@ struct FirstAnswers {
 /// Plans every job once with each build, checked by the validator.
 Expected<FirstAnswers, std::string> plan_all(WorkerPair& workers, const GateCases& cases);
 
-/// How long a pair plans.
+/// How long a pair plans. Cells that are slow are planned in the first rounds alone.
 struct PairBudget {
   double seconds = 0.6;   ///< some five rounds of the suite on a machine that is idle
   int fewest_rounds = 3;  ///< on one that is not: enough to be robust against one bad round
+  int slow_rounds = 2;    ///< each planning is long enough to smooth itself
 };
 
 /// Rounds over all timed jobs of the cells in `wanted`, in an order drawn for each round,

@@ -91,10 +91,10 @@ Expected<WorkerGreeting, std::string> greeting_from_json(const Json& object) {
   return guarded<WorkerGreeting>([&object]() -> Expected<WorkerGreeting, std::string> {
     WorkerGreeting greeting;
     greeting.protocol = object.at("sipplab_gate").get<int>();
-    if (greeting.protocol != kGateProtocol) {
+    if (greeting.protocol < kPlanningProtocol || greeting.protocol > kGateProtocol) {
       return Unexpected{
-          fmt::format("protocol {} of the gate, expected {}: build both with the same generation",
-                      greeting.protocol, kGateProtocol)};
+          fmt::format("protocol {} of the gate, expected {} to {}: ask the newer build to compare",
+                      greeting.protocol, kPlanningProtocol, kGateProtocol)};
     }
     db::BuildInfo& build = greeting.build;
     build.compiler = object.at("compiler").get<std::string>();
@@ -124,6 +124,7 @@ Json to_json(const WorkerAnswer& answer) {
                  {"message", row.message}};
   if (row.plan_hash) object["plan_hash"] = *row.plan_hash;
   if (row.valid) object["valid"] = *row.valid;
+  if (row.peak_memory_bytes) object["peak_memory_bytes"] = *row.peak_memory_bytes;
   return object;
 }
 
@@ -141,6 +142,9 @@ Expected<WorkerAnswer, std::string> answer_from_json(const Json& object) {
     row.flowtime_s = optional_number(object, "flowtime_s");
     if (object.contains("plan_hash")) row.plan_hash = object.at("plan_hash").get<std::uint64_t>();
     if (object.contains("valid")) row.valid = object.at("valid").get<bool>();
+    if (object.contains("peak_memory_bytes")) {
+      row.peak_memory_bytes = object.at("peak_memory_bytes").get<std::int64_t>();
+    }
     row.message = object.at("message").get<std::string>();
     answer.cpu_ns = object.at("cpu_ns").get<std::int64_t>();
     row.planning_time_ns = answer.cpu_ns;

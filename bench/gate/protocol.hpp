@@ -14,8 +14,10 @@
 
 namespace sipplab::bench {
 
-/// Rises when a line changes its meaning.
-inline constexpr int kGateProtocol = 1;
+/// Rises when a line changes its meaning. Version 1 knew no tasks beside planning, no improvement and no
+/// memory; its workers are asked for what they know.
+inline constexpr int kGateProtocol = 2;
+inline constexpr int kPlanningProtocol = 1;
 
 /// The first line of a worker: what it is.
 struct WorkerGreeting {

@@ -1,7 +1,8 @@
 // Faults on purpose, to measure what the gate can see. With SIPPLAB_INJECT_SLOWDOWN=0.03 in
 // its environment a judged build spends 3 % of each planning time once more, doing nothing;
+// with SIPPLAB_INJECT_INTO=read another task than planning (see laboratory.hpp);
 // with SIPPLAB_INJECT_CHANGE=7 it plans its instance number 7 in another order. Left out of
-// --help: they are for scripts/gate-trials and tests.
+// --help: they are for scripts/trials and tests.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 namespace sipplab::bench {
 
 inline constexpr const char* kSlowdownVariable = "SIPPLAB_INJECT_SLOWDOWN";
+inline constexpr const char* kIntoVariable = "SIPPLAB_INJECT_INTO";
 inline constexpr const char* kChangeVariable = "SIPPLAB_INJECT_CHANGE";
 
 /// The share that the environment asks for, 0 if it asks for none or for nonsense.

@@ -1,5 +1,7 @@
 #include "bench/gate/worker.hpp"
 
+#include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <istream>
 #include <ostream>
@@ -8,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "bench/gate/laboratory.hpp"
 #include "bench/gate/protocol.hpp"
 #include "bench/gate/slowdown.hpp"
+#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/run_instance.hpp"
-#include "planner/solve/plan.hpp"
 #include "sipplab/instance_io.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -23,7 +27,14 @@ using nlohmann::json;
 struct Job {
   std::size_t instance = 0;
   PlannerOptions options;
+  GateTask task = GateTask::kPlan;
 };
+
+/// Into which task the slowdown goes.
+GateTask slowed_task() {
+  const char* value = std::getenv(kIntoVariable);
+  return parse_gate_task(value == nullptr ? "" : value).value_or(GateTask::kPlan);
+}
 
 class Worker {
  public:
@@ -48,6 +59,8 @@ class Worker {
     Input<LoadedInstance> loaded = load_instance(files);
     if (!loaded) return error(loaded.error().message());
     instances_.push_back(std::move(loaded->instance));
+    files_.push_back(file);
+    if (!laboratory_) laboratory_.emplace(std::filesystem::path(file).parent_path());
     return {{"instance", instances_.size() - 1}, {"content_hash", content_hash(instances_.back())}};
   }
 
@@ -60,7 +73,9 @@ class Worker {
       const bool shortest = options->order == InitialOrder::kShortestFirst;
       options->order = shortest ? InitialOrder::kLongestFirst : InitialOrder::kShortestFirst;
     }
-    jobs_.push_back({instance, *options});
+    const auto task = parse_gate_task(request.value("task", "plan"));
+    if (!task) return error("no such task");
+    jobs_.push_back({instance, *options, *task});
     return {{"job", jobs_.size() - 1}};
   }
 
@@ -69,19 +84,42 @@ class Worker {
     if (number >= jobs_.size()) return error("no such job");
     const Job& job = jobs_[number];
     const Instance& instance = instances_[job.instance];
+    if (job.task != GateTask::kPlan) return do_task(job);
     WorkerAnswer answer;
+    const bool check = request.value("check", false);
+    std::optional<PeakMemory> memory;
+    if (request.value("memory", false)) memory.emplace();
     const std::int64_t begin_ns = thread_cpu_ns();
-    const PlanResult result = plan(instance, job.options);
-    burn(slowdown_, thread_cpu_ns() - begin_ns);
+    const SolveResult solved = solve(instance, job.options);
+    burn(slowed_ == GateTask::kPlan ? slowdown_ : 0, thread_cpu_ns() - begin_ns);
     answer.cpu_ns = thread_cpu_ns() - begin_ns;
-    answer.row = request.value("check", false) ? judged(instance, job.options, result)
-                                               : described(job.options, result);
+    std::optional<std::int64_t> bytes;
+    if (memory) bytes = memory->bytes();
+    answer.row = described(job.options, solved);
+    answer.row.peak_memory_bytes = bytes;
+    if (check && solved.is_solved()) {
+      add_verdict(instance, solved.solution(), solved.promises(job.options.rules), answer.row);
+    }
     return to_json(answer);
   }
 
-  std::vector<Instance> instances_;
+  json do_task(const Job& job) {
+    const auto timed = laboratory_->run(job.task, files_[job.instance], instances_[job.instance], job.options,
+                                        slowed_ == job.task ? slowdown_ : 0);
+    if (!timed) return error(timed.error());
+    WorkerAnswer answer;
+    answer.row.status = db::ResultStatus::kSolved;
+    answer.row.plan_hash = timed->outcome;
+    answer.cpu_ns = timed->cpu_ns;
+    return to_json(answer);
+  }
+
+  std::deque<Instance> instances_;  ///< which the laboratory knows by their place
+  std::vector<std::string> files_;
+  std::optional<Laboratory> laboratory_;
   std::vector<Job> jobs_;
   double slowdown_ = injected_slowdown();
+  GateTask slowed_ = slowed_task();
   std::optional<std::size_t> changed_ = injected_change();
 };
 

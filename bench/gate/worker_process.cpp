@@ -156,14 +156,17 @@ Expected<std::string, std::string> WorkerProcess::load(const std::string& file) 
   return answer.value("content_hash", "");
 }
 
-Expected<std::size_t, std::string> WorkerProcess::add_job(std::size_t instance,
-                                                          const PlannerOptions& options) {
-  const auto answer = SIPPLAB_TRY(ask({{"instance", instance}, {"options", to_json(options)}}));
+Expected<std::size_t, std::string> WorkerProcess::add_job(std::size_t instance, const PlannerOptions& options,
+                                                          GateTask task) {
+  nlohmann::json request = {{"instance", instance}, {"options", to_json(options)}};
+  if (task != GateTask::kPlan) request["task"] = name(task);
+  const auto answer = SIPPLAB_TRY(ask(request));
   return answer.value("job", std::size_t{0});
 }
 
-Expected<WorkerAnswer, std::string> WorkerProcess::plan(std::size_t job, bool check) {
-  const auto answer = SIPPLAB_TRY(ask({{"plan", job}, {"check", check}}));
+Expected<WorkerAnswer, std::string> WorkerProcess::plan(std::size_t job, Ask what) {
+  const auto answer =
+      SIPPLAB_TRY(ask({{"plan", job}, {"check", what == Ask::kVerdict}, {"memory", what == Ask::kPages}}));
   Expected<WorkerAnswer, std::string> read = answer_from_json(answer);
   if (!read) return Unexpected{complaint(read.error())};
   return read;

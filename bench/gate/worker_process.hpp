@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/laboratory.hpp"
 #include "bench/gate/protocol.hpp"
 #include "sipplab/error.hpp"
 
@@ -44,10 +45,16 @@ class WorkerProcess {
 
   /// Loads an instance file; returns its content hash.
   Expected<std::string, std::string> load(const std::string& file);
-  /// Adds a job: to plan the instance that was loaded as number `instance`.
-  Expected<std::size_t, std::string> add_job(std::size_t instance, const PlannerOptions& options);
-  /// Plans a job; `check`: has the validator speak.
-  Expected<WorkerAnswer, std::string> plan(std::size_t job, bool check);
+  /// Adds a job: to plan the instance that was loaded as number `instance`, or another task with it.
+  Expected<std::size_t, std::string> add_job(std::size_t instance, const PlannerOptions& options,
+                                             GateTask task);
+  enum class Ask {
+    kClock,
+    kPages,    ///< and memory: takes a little longer
+    kVerdict,  ///< and what the validator says
+  };
+  /// Does a job.
+  Expected<WorkerAnswer, std::string> plan(std::size_t job, Ask what);
 
  private:
   WorkerProcess(std::string title, pid_t process, int to, int from);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "bench/judge/evidence.hpp"
 #include "db/statistics/statistics.hpp"
@@ -20,23 +21,31 @@ std::optional<double> pair_of(const Metric& metric, const db::PairedCell& cell,
   const double base = metric.value(result.base);
   const double head = metric.value(result.head);
   if (metric.test == Test::kSigns) return base - head;
-  const bool comparable = metric.of_time ? cell.same_machine : solved(result.base) * solved(result.head) > 0;
+  const bool comparable =
+      metric.of_machine ? cell.same_machine : solved(result.base) * solved(result.head) > 0;
   if (!comparable || base <= 0 || head <= 0) return std::nullopt;
   return std::log(head / base);
 }
 
+double count(std::uint64_t value) { return static_cast<double>(value); }
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
 double centre(const Metric& metric, const std::vector<double>& pairs) {
   if (pairs.empty()) return 0;
   if (metric.median) return *statistics::median(pairs);
-  double sum = 0;
-  for (const double pair : pairs) sum += pair;
-  return sum / static_cast<double>(pairs.size());
+  return sum(pairs) / static_cast<double>(pairs.size());
+}
+
+std::vector<double> negative(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return values;
 }
 
 double p_value(const Difference& row) {
   switch (row.metric->test) {
     case Test::kSigns:
-      return statistics::mcnemar(row.worse(), row.better());
+      return statistics::sign_flips({row.pairs.begin(), row.pairs.end()});
     case Test::kRanks:
       return statistics::wilcoxon(row.pairs).value_or(1);
     case Test::kFreshPairs:
@@ -47,57 +56,106 @@ double p_value(const Difference& row) {
   return 1;
 }
 
-bool judges(const Difference& row) { return row.cell ? row.metric->judges : row.metric->judges_pooled; }
-
-bool is_suspected(const Difference& row) {
-  return row.adjusted_p <= row.metric->level && row.effect > row.floor;
+/// A test of ranks may be certain of another direction than the mean goes: then it says nothing of the mean.
+bool is_worse(const Difference& row) {
+  return row.adjusted_p <= kRecordedLevel && row.effect > row.floor && row.at_least > 0;
+}
+bool is_better(const Difference& row) {
+  return row.adjusted_p <= kRecordedLevel && row.effect < -row.floor && row.at_most < 0;
 }
 
 Verdict verdict(const Difference& row) {
-  if (is_suspected(row)) return Verdict::kRegressed;
-  if (!row.cell && row.metric->doubts_pooled && row.effect > row.floor) return Verdict::kInconclusive;
-  return row.worse() + row.better() > 0 ? Verdict::kChanged : Verdict::kSame;
+  if (row.worse() + row.better() == 0) return Verdict::kSame;
+  if (is_worse(row)) return Verdict::kRegressed;
+  if (is_better(row)) return Verdict::kImproved;
+  if (row.at_most <= row.floor && row.at_least >= -row.floor) return Verdict::kEquivalent;
+  const bool doubtful = !row.cell && row.metric->doubts_pooled && row.effect > row.floor;
+  return doubtful ? Verdict::kInconclusive : Verdict::kChanged;
+}
+
+bool is_slower(const Difference& row) { return row.adjusted_p <= kSuspicionLevel && row.effect > row.floor; }
+bool is_faster(const Difference& row) {
+  return row.adjusted_faster_p <= kSuspicionLevel && row.effect < -row.floor;
 }
 
 }  // namespace
 
-// Thresholds: chance of calling equal rates of success different in some cell; the same for flowtimes, which
-// a change of plans always moves, and 1 %, so that a certain but tiny loss fails no build.
 const Metric kSuccess = {.name = "success",
+                         .kind = db::MetricKind::kSuccess,
                          .test = Test::kSigns,
-                         .level = 0.05,
                          .judges = true,
                          .judges_pooled = true,
                          .doubts_pooled = true,
                          .value = solved};
 const Metric kFlowtime = {.name = "flowtime",
                           .test = Test::kRanks,
-                          .level = 0.01,
-                          .floor = 0.00995,
                           .judges = true,
+                          .judges_pooled = true,
+                          .doubts_pooled = true,
                           .value = [](const db::ResultRow& row) { return row.flowtime_s.value_or(0); }};
-const Metric kMakespan = {.name = "makespan", .test = Test::kRanks, .value = [](const db::ResultRow& row) {
-                            return row.makespan_s.value_or(0);
-                          }};
-const Metric kExpansions = {
-    .name = "expansions", .test = Test::kRanks, .value = [](const db::ResultRow& row) {
-      return static_cast<double>(row.expansions);
+const Metric kMakespan = {
+    .name = "makespan", .test = Test::kRanks, .judges_pooled = true, .value = [](const db::ResultRow& row) {
+      return row.makespan_s.value_or(0);
     }};
+const Metric kExpansions = {.name = "expansions",
+                            .kind = db::MetricKind::kCounts,
+                            .test = Test::kRanks,
+                            .judges = true,
+                            .judges_pooled = true,
+                            .value = [](const db::ResultRow& row) { return count(row.expansions); }};
+const Metric kGenerations = {.name = "generations",
+                             .kind = db::MetricKind::kCounts,
+                             .test = Test::kRanks,
+                             .judges_pooled = true,
+                             .value = [](const db::ResultRow& row) { return count(row.generations); }};
+const Metric kTries = {.name = "tries",
+                       .kind = db::MetricKind::kCounts,
+                       .test = Test::kRanks,
+                       .judges_pooled = true,
+                       .value = [](const db::ResultRow& row) { return count(row.tries); }};
+const Metric kInstructions = {.name = "instructions",
+                              .kind = db::MetricKind::kTime,
+                              .test = Test::kRanks,
+                              .judges_pooled = true,
+                              .value =
+                                  [](const db::ResultRow& row) {
+                                    return count(static_cast<std::uint64_t>(row.instructions.value_or(0)));
+                                  },
+                              .of_machine = true};
+const Metric kMemory = {.name = "peak memory",
+                        .kind = db::MetricKind::kMemory,
+                        .value =
+                            [](const db::ResultRow& row) {
+                              if (!row.peak_memory_bytes) return 0.0;
+                              return kMemoryGrainBytes + static_cast<double>(*row.peak_memory_bytes);
+                            },
+                        .of_machine = true};
 const Metric kSweepTime = {
     .name = "sweep time",
+    .kind = db::MetricKind::kTime,
     .median = true,
     .value = [](const db::ResultRow& row) { return static_cast<double>(row.planning_time_ns); },
-    .of_time = true};
+    .of_machine = true};
 const Metric kProcessTime = {.name = "time",
+                             .kind = db::MetricKind::kTime,
                              .test = Test::kFreshPairs,
                              .median = true,
-                             .level = kSuspicionLevel,
-                             .floor = kLeastFloor,
                              .judges = true,
                              .judges_pooled = true};
+const Metric kProcessMemory = {.name = "memory",
+                               .kind = db::MetricKind::kMemory,
+                               .test = Test::kFreshPairs,
+                               .median = true,
+                               .judges_pooled = true};
+
+double Floors::of(const Metric& metric) const {
+  const double share = shares[static_cast<std::size_t>(metric.kind)];
+  return metric.test == Test::kSigns ? share : std::log1p(share);
+}
 
 std::string_view name(Verdict verdict) {
-  constexpr std::string_view kNames[] = {"same", "equivalent", "changed", "inconclusive", "regressed"};
+  constexpr std::string_view kNames[] = {"same",    "equivalent",   "improved",
+                                         "changed", "inconclusive", "regressed"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -112,72 +170,93 @@ std::size_t Difference::better() const {
 }
 
 void evaluate(Difference& row) {
-  row.effect = centre(*row.metric, row.pairs);
+  // Lost plannings are counted by instance, and are a share of all plannings.
+  const double scale = row.metric->test == Test::kSigns && row.plannings > 0
+                           ? count(row.pairs.size()) / count(row.plannings)
+                           : 1;
+  row.effect = scale * centre(*row.metric, row.pairs);
   row.p_value = row.adjusted_p = p_value(row);
-  if (row.metric->test == Test::kSigns) return;  // shares have no interval of this kind
   if (row.metric->median) {
     row.at_least = lower_bound(row.pairs);
     row.at_most = upper_bound(row.pairs);
   } else if (const auto half = half_width(row.pairs)) {
-    row.at_least = row.effect - *half;
-    row.at_most = row.effect + *half;
+    row.at_least = row.effect - scale * *half;
+    row.at_most = row.effect + scale * *half;
   }
 }
 
 Difference measured(const Metric& metric, const std::vector<const db::PairedCell*>& cells,
                     std::optional<std::size_t> cell) {
   std::map<std::string_view, std::vector<double>> by_instance;
-  for (const db::PairedCell* paired : cells) {
-    for (const db::PairedResult& result : paired->results) {
-      if (const auto pair = pair_of(metric, *paired, result))
-        by_instance[result.instance_hash].push_back(*pair);
-    }
-  }
   Difference row;
   row.metric = &metric;
   row.cell = cell;
-  row.floor = metric.floor;
+  for (const db::PairedCell* paired : cells) {
+    for (const db::PairedResult& result : paired->results) {
+      const auto pair = pair_of(metric, *paired, result);
+      if (!pair) continue;
+      by_instance[result.instance_hash].push_back(*pair);
+      ++row.plannings;
+      row.lost += metric.test == Test::kSigns && *pair > 0 ? 1U : 0U;
+      row.gained += metric.test == Test::kSigns && *pair < 0 ? 1U : 0U;
+    }
+  }
   for (const auto& [instance, pairs] : by_instance) {
-    const double pair = centre(metric, pairs);
-    // Lost in most cells is lost, however many there are.
-    row.pairs.push_back(metric.test == Test::kSigns ? (pair > 0 ? 1.0 : 0.0) - (pair < 0 ? 1.0 : 0.0) : pair);
+    row.pairs.push_back(metric.test == Test::kSigns ? sum(pairs) : centre(metric, pairs));
   }
   evaluate(row);
   return row;
 }
 
-void judge_rows(const std::vector<Difference*>& rows) {
-  // A row over all cells that only informs leaves the p values of the others alone.
-  std::vector<Difference*> family;
+void judge_recorded(const std::vector<Difference*>& family, const Floors& floors) {
   std::vector<double> p_values;
-  for (Difference* row : rows) {
-    if (!row->cell && !judges(*row)) continue;
-    family.push_back(row);
-    p_values.push_back(row->p_value);
-  }
+  for (const Difference* row : family) p_values.push_back(row->p_value);
   const std::vector<double> adjusted = holm(p_values);
   for (std::size_t i = 0; i < family.size(); ++i) {
-    family[i]->adjusted_p = adjusted[i];
-    const bool now = judges(*family[i]) && family[i]->metric->test != Test::kFreshPairs;
-    if (now) family[i]->verdict = verdict(*family[i]);
+    Difference& row = *family[i];
+    row.adjusted_p = adjusted[i];
+    row.floor = floors.of(*row.metric);
+    const double level = kRecordedLevel / count(family.size());
+    row.detectable = row.metric->test == Test::kSigns ? detectable_losses(row.pairs, row.plannings, level)
+                                                      : detectable_by_ranks(row.pairs, level, row.floor);
+    row.verdict = verdict(row);
+  }
+}
+
+void judge_times(const std::vector<Difference*>& rows) {
+  std::vector<double> slower;
+  std::vector<double> faster;
+  for (const Difference* row : rows) {
+    slower.push_back(row->p_value);
+    faster.push_back(slower_p_value(negative(row->pairs)));
+  }
+  slower = holm(slower);
+  faster = holm(faster);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i]->adjusted_p = slower[i];
+    rows[i]->adjusted_faster_p = faster[i];
   }
 }
 
 bool needs_second_look(const Difference& row, double tolerance) {
-  return is_suspected(row) || row.at_most >= tolerance;
+  return is_slower(row) || is_faster(row) || row.at_most >= tolerance;
 }
 
 void second_look(Difference& row, double tolerance) {
   row.verdict = Verdict::kEquivalent;
   if (row.fresh_pairs.empty()) return;
-  row.confirmation = Confirmation{centre(*row.metric, row.fresh_pairs), slower_p_value(row.fresh_pairs)};
+  const bool faster = is_faster(row);
+  const bool suspected = faster || is_slower(row);
+  row.confirmation = Confirmation{centre(*row.metric, row.fresh_pairs),
+                                  slower_p_value(faster ? negative(row.fresh_pairs) : row.fresh_pairs)};
   std::vector<double> all = row.pairs;
   all.insert(all.end(), row.fresh_pairs.begin(), row.fresh_pairs.end());
   row.at_least = lower_bound(all);
   row.at_most = upper_bound(all);
-  if (is_suspected(row) && row.confirmation->p_value <= kConfirmationLevel &&
-      row.confirmation->effect > row.floor) {
-    row.verdict = Verdict::kRegressed;
+  const double confirmed = faster ? -row.confirmation->effect : row.confirmation->effect;
+  if (suspected && row.confirmation->p_value <= kConfirmationLevel && confirmed > row.floor) {
+    row.verdict = faster ? Verdict::kImproved : Verdict::kRegressed;
+    row.effect = centre(*row.metric, all);
   } else if (row.at_most >= tolerance) {
     row.verdict = Verdict::kInconclusive;
   }

@@ -3,6 +3,7 @@
 // its pairs come from differs.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -10,54 +11,80 @@
 #include <vector>
 
 #include "db/comparisons.hpp"
+#include "db/thresholds.hpp"
 
 namespace sipplab::bench {
 
 /// From harmless to grave.
 enum class Verdict {
   kSame,          ///< every planning gave the same
-  kEquivalent,    ///< nothing is worse by more than the tolerance
+  kEquivalent,    ///< what differs is below its floor
+  kImproved,      ///< better for certain, and nothing that judges is worse
   kChanged,       ///< other results, and nothing that judges is worse for certain
   kInconclusive,  ///< worse, which may be chance, or too noisy to tell
   kRegressed,
 };
-/// "same", "equivalent", "changed", "inconclusive", "regressed".
+/// "same", "equivalent", "improved", "changed", "inconclusive", "regressed".
 std::string_view name(Verdict verdict);
 
 /// How pairs become a p value.
 enum class Test {
   kNone,
-  kSigns,       ///< sign test, two-sided; of lost and gained instances it is McNemar's
+  kSigns,       ///< of lost and gained plannings, by instance: McNemar's, exact
   kRanks,       ///< Wilcoxon's, two-sided
   kFreshPairs,  ///< sign test, one-sided, to be confirmed by fresh pairs
 };
 
-/// A pair is the logarithm of head over base, 0.03 for 3 % more; of kSigns 1 for an instance that only the
+/// Chance of calling some metric of equal builds different over all cells, by the tests of recorded results,
+/// and again of some cell: half of either is on the side of worse.
+inline constexpr double kRecordedLevel = 0.01;
+
+/// A pair is the logarithm of head over base, 0.03 for 3 % more; of kSigns 1 for a planning that only the
 /// base solves and -1 for one that only the head solves. Above zero is worse.
 struct Metric {
   std::string_view name = {};
+  db::MetricKind kind = db::MetricKind::kQuality;
   Test test = Test::kNone;
   bool median = false;         ///< the effect is the median of the pairs, else their mean
-  double level = 0;            ///< adjusted p values above it are chance
-  double floor = 0;            ///< effects up to it never count, however certain
   bool judges = false;         ///< in a cell; other metrics inform
   bool judges_pooled = false;  ///< over all cells together
   bool doubts_pooled = false;  ///< there, a worse effect that may be chance is inconclusive
   /// What one planning gave; 0 and less has no logarithm. None: the pairs are measured elsewhere.
   double (*value)(const db::ResultRow& row) = nullptr;
-  bool of_time = false;  ///< compared on one machine alone, and of unsolved plannings too
+  bool of_machine = false;  ///< compared on one machine alone, and of unsolved plannings too
 };
 
 extern const Metric kSuccess;
 extern const Metric kFlowtime;
 extern const Metric kMakespan;
 extern const Metric kExpansions;
+extern const Metric kGenerations;
+extern const Metric kTries;
+extern const Metric kInstructions;
+extern const Metric kMemory;       ///< of two processes, which differ by themselves: it judges nothing
 extern const Metric kSweepTime;    ///< of sweeps, which did not run in turn: it judges nothing
 extern const Metric kProcessTime;  ///< of pairs of processes, by the gate
+extern const Metric kProcessMemory;
 
 /// Those of recorded results. A new metric is a row here and a constant above.
-inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess, &kFlowtime, &kMakespan, &kExpansions,
-                                                     &kSweepTime};
+inline constexpr const Metric* kRecordedMetrics[] = {&kSuccess,      &kFlowtime,    &kMakespan,
+                                                     &kExpansions,   &kGenerations, &kTries,
+                                                     &kInstructions, &kMemory,      &kSweepTime};
+
+/// Added to the bytes of both sides before they are compared: pages are counted in batches, so that a
+/// planning in less says nothing.
+inline constexpr double kMemoryGrainBytes = 1 << 20;
+
+/// Smallest effects that count, by kind of metric.
+struct Floors {
+  std::array<double, db::kThresholds.size()> shares;
+  Floors() {
+    for (const db::Threshold& threshold : db::kThresholds) (*this)[threshold.kind] = threshold.floor;
+  }
+  double& operator[](db::MetricKind kind) { return shares[static_cast<std::size_t>(kind)]; }
+  /// As the effects of this metric are: a difference of shares, or a logarithm.
+  double of(const Metric& metric) const;
+};
 
 /// A look at fresh pairs alone.
 struct Confirmation {
@@ -72,21 +99,24 @@ struct Difference {
   /// observation, and so is an instance in several cells.
   std::vector<double> pairs = {};
   std::vector<double> fresh_pairs = {};  ///< of those that were to confirm
+  std::size_t plannings = 0;             ///< behind the pairs, of recorded results
+  std::size_t lost = 0;                  ///< of success: plannings that only the base solved
+  std::size_t gained = 0;                ///< that only the head solved
   double effect = 0;
-  /// Interval of the effect, infinite if the pairs are too few. Of a mean: 95 %. Of a median: each
-  /// bound with 95 % confidence.
+  /// 95 % interval of the effect, infinite if the pairs are too few.
   double at_least = -std::numeric_limits<double>::infinity();
   double at_most = std::numeric_limits<double>::infinity();
   double p_value = 1;
-  double adjusted_p = 1;  ///< Holm's, over the rows of its metric that judge together
+  double adjusted_p = 1;         ///< Holm's, over the rows that are judged together
+  double adjusted_faster_p = 1;  ///< of kFreshPairs, on the other side
   std::optional<Confirmation> confirmation = {};
   double noise = 0;  ///< standard error of the effect between equal builds
   double floor = 0;  ///< the metric's, or what the noise asks for
   double detectable = std::numeric_limits<double>::infinity();  ///< effect that is found 19 times of 20
   std::optional<Verdict> verdict = {};                          ///< none: it informs
 
-  std::size_t worse() const;   ///< pairs above zero: of success, instances lost
-  std::size_t better() const;  ///< pairs below: instances gained
+  std::size_t worse() const;   ///< pairs above zero
+  std::size_t better() const;  ///< pairs below
 };
 
 /// From its pairs: effect, interval and p value, adjusted by nothing.
@@ -96,11 +126,15 @@ void evaluate(Difference& row);
 Difference measured(const Metric& metric, const std::vector<const db::PairedCell*>& cells,
                     std::optional<std::size_t> cell);
 
-/// Adjusts the p values of one metric's rows and gives verdicts to those that judge. Those of kFreshPairs
-/// wait for second_look().
-void judge_rows(const std::vector<Difference*>& rows);
+/// Adjusts the p values of rows of recorded metrics that are judged together, gives verdicts to them, and
+/// says what they could have seen.
+void judge_recorded(const std::vector<Difference*>& family, const Floors& floors);
 
-/// Whether fresh pairs are worth their time: the first look found a slowdown, or cannot rule one out.
+/// Adjusts the p values of rows of kFreshPairs. Their verdicts wait for second_look().
+void judge_times(const std::vector<Difference*>& rows);
+
+/// Whether fresh pairs are worth their time: the first look found a change of speed, or cannot rule out a
+/// slowdown.
 bool needs_second_look(const Difference& row, double tolerance);
 
 /// The verdict of a row of kFreshPairs, after its fresh pairs if it needed some.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +13,8 @@
 namespace sipplab::bench {
 namespace {
 
+/// Of what is called detectable.
+constexpr double kPower = 0.95;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double median(const std::vector<double>& values) { return db::statistics::median(values).value_or(0); }
@@ -112,13 +115,12 @@ double standard_error(const std::vector<double>& values, std::size_t pairs) {
   return kMedianOverMean * kDeviationOverMad * median(distances) / std::sqrt(static_cast<double>(pairs));
 }
 
-double floor_from(double standard_error) {
-  return std::max(kLeastFloor, kFloorInStandardErrors * standard_error);
+double floor_from(double standard_error, double least) {
+  return std::max(least, kFloorInStandardErrors * standard_error);
 }
 
 double detectable(const std::vector<double>& pairs, const GatePlan& plan, double floor) {
   constexpr int kDraws = 4000;
-  constexpr double kPower = 0.95;
   constexpr std::uint64_t kSeed = 1;
   if (pairs.size() < 2 || plan.rows == 0) return kInfinity;
   const std::vector<double> rest = centred(pairs);
@@ -139,6 +141,42 @@ double detectable(const std::vector<double>& pairs, const GatePlan& plan, double
     critical.push_back(std::max(first, fresh));
   }
   return db::statistics::quantile(critical, kPower).value_or(kInfinity);
+}
+
+double detectable_by_ranks(const std::vector<double>& pairs, double level, double floor) {
+  // Relative to Student's test, of normal values: what ranks throw away.
+  constexpr double kEfficiencyOfRanks = 3 / std::numbers::pi;
+  const auto count = static_cast<double>(pairs.size());
+  if (std::ldexp(2.0, -static_cast<int>(std::min<std::size_t>(pairs.size(), 1000))) > level) return kInfinity;
+  const double mean = std::accumulate(pairs.begin(), pairs.end(), 0.0) / count;
+  double squares = 0;
+  for (const double pair : pairs) squares += (pair - mean) * (pair - mean);
+  const double error = std::sqrt(squares / (count - 1) / count);
+  const double power = db::statistics::normal_quantile(kPower);
+  return std::max(floor + power * error, (db::statistics::normal_quantile(1 - level / 2) + power) * error /
+                                             std::sqrt(kEfficiencyOfRanks));
+}
+
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level) {
+  const auto count = static_cast<double>(nets.size());
+  const double z = db::statistics::normal_quantile(1 - level / 2);
+  if (plannings == 0 || z * z >= count) return kInfinity;
+  // The squares of nets without a change, which has made one side of them larger.
+  double lost = 0;
+  double gained = 0;
+  for (const double net : nets) (net > 0 ? lost : gained) += net * net;
+  const double scatter = 2 * std::min(lost, gained);
+  // Of q losses the sum of nets is q, and that of their squares scatter + q + q^2 / count, for some instances
+  // lose twice: the test finds q >= z sqrt(that), and no fewer than signs that all agree need.
+  const double share_of_square = 1 - z * z / count;
+  const double found =
+      (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
+  const double least = std::max(found, std::ceil(1 - std::log2(level)));
+  // So many or more come in 95 of 100 comparisons.
+  const double power = db::statistics::normal_quantile(kPower);
+  const double root = (power + std::sqrt(power * power + 4 * (least + scatter))) / 2;
+  const double share = (root * root - scatter) / static_cast<double>(plannings);
+  return share <= 1 ? share : kInfinity;
 }
 
 }  // namespace sipplab::bench

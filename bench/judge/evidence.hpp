@@ -9,17 +9,14 @@
 namespace sipplab::bench {
 
 /// Rises when measuring or judging changes in a way that makes older noise worthless.
-inline constexpr int kGateMethod = 1;
+inline constexpr int kGateMethod = 2;
 
 /// Chance of suspecting some row of a comparison of equal builds, before fresh pairs are asked.
 inline constexpr double kSuspicionLevel = 0.02;
 /// Chance that fresh pairs confirm what is not there.
 inline constexpr double kConfirmationLevel = 0.05;
-/// One-sided confidence of "at most so much slower".
-inline constexpr double kBoundLevel = 0.05;
-/// Smaller effects never fail a build, however certain: moving code about without changing it,
-/// as any edit does, shifts times by as much.
-inline constexpr double kLeastFloor = 0.01;
+/// Chance that a median lies beyond a bound, on either side: both together are an interval of 95 %.
+inline constexpr double kBoundLevel = 0.025;
 /// The floor in standard errors of a comparison of equal builds.
 inline constexpr double kFloorInStandardErrors = 3;
 
@@ -32,7 +29,7 @@ double interquartile_mean(std::vector<double> values);
 double slower_p_value(const std::vector<double>& values);
 
 /// With confidence 1 - kBoundLevel, the median of the distribution that the values come from
-/// is not above this; infinity for fewer than 5 values.
+/// is not above this; infinity for fewer than 6 values.
 double upper_bound(std::vector<double> values);
 
 /// The same from below.
@@ -48,7 +45,8 @@ std::vector<double> holm(const std::vector<double>& p_values);
 /// `values`; from the median distance to their median, so that a few wild pairs say little.
 double standard_error(const std::vector<double>& values, std::size_t pairs);
 
-double floor_from(double standard_error);
+/// The floor that the noise asks for, or `least`.
+double floor_from(double standard_error, double least);
 
 /// How many pairs each look takes.
 struct GatePlan {
@@ -60,5 +58,15 @@ struct GatePlan {
 /// The smallest slowdown that is found in 95 of 100 comparisons, when pairs scatter as in
 /// `pairs` (drawn again and again, seeded). Infinity for fewer than 2 pairs.
 double detectable(const std::vector<double>& pairs, const GatePlan& plan, double floor);
+
+/// The same by a test of ranks at this level, when instances scatter about the effect as in `pairs`, a normal
+/// approximation: enough for the test, and with a mean above the floor. Infinity if even pairs that all agree
+/// are too few.
+double detectable_by_ranks(const std::vector<double>& pairs, double level, double floor);
+
+/// The share of `plannings` that must be lost, spread over the instances by chance, so that sign_flips()
+/// finds it at this level in 95 of 100 comparisons, when without it instances lose and gain as in `nets`. A
+/// normal approximation. Infinity if all are too few.
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level);
 
 }  // namespace sipplab::bench

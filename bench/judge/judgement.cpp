@@ -31,7 +31,8 @@ std::optional<double> par2(const db::PairedCell& cell, db::ResultRow db::PairedR
 }
 
 /// Adds one planning; whether it differs.
-bool count(const db::PairedResult& result, bool differs, Judged& counts) {
+bool count(const db::PairedResult& result, const std::optional<Change>& what, Judged& counts) {
+  const bool differs = what.has_value();
   const bool base = is_solved(result.base);
   const bool head = is_solved(result.head);
   const bool invalid =
@@ -42,6 +43,7 @@ bool count(const db::PairedResult& result, bool differs, Judged& counts) {
   counts.both_solved += base && head ? 1U : 0U;
   counts.newly_invalid += invalid ? 1U : 0U;
   counts.differing += differs ? 1U : 0U;
+  counts.other_plans += differs && what->kind != ChangeKind::kWork ? 1U : 0U;
   counts.cut_short += !differs && (is_cut_short(result.base) || is_cut_short(result.head)) ? 1U : 0U;
   return differs;
 }
@@ -51,8 +53,8 @@ void find_changes(Judgement& judgement, std::size_t number) {
   const std::vector<db::PairedResult>& results = judgement.results[number].results;
   for (std::size_t i = 0; i < results.size(); ++i) {
     auto what = change(results[i].base, results[i].head);
-    count(results[i], what.has_value(), judgement.all);
-    if (!count(results[i], what.has_value(), judgement.cells[number])) continue;
+    count(results[i], what, judgement.all);
+    if (!count(results[i], what, judgement.cells[number])) continue;
     const std::string_view instance = results[i].instance_hash;
     const auto [place, is_new] = known.emplace(std::make_tuple(instance, what->kind, what->base, what->head),
                                                judgement.findings.size());
@@ -69,79 +71,12 @@ std::size_t instances(const std::vector<const db::PairedCell*>& cells) {
   return hashes.size();
 }
 
-/// Validity first, then what the head lost, then what it gained.
+/// Validity first, then what the head lost, what it gained, other plans and at last other work.
 int rank(const Judgement& judgement, const Finding& finding) {
   if (finding.what.kind == ChangeKind::kValidity) return 0;
+  if (finding.what.kind == ChangeKind::kWork) return 4;
   if (finding.what.kind != ChangeKind::kStatus) return 3;
   return is_solved(judgement.result(finding).head) ? 2 : 1;
-}
-
-/// "flowtime +1.3 % in warehouse, 64 robots (p = 2e-05)": what a row says that is no good.
-std::string words(const Judgement& judgement, const Difference& row, double tolerance) {
-  const std::string where =
-      row.cell ? "in " + judgement.cells[*row.cell].name : std::string("over all cells");
-  const bool regressed = row.verdict == Verdict::kRegressed;
-  const auto percent = [](double effect) { return 100 * std::expm1(effect); };
-  if (row.metric == &kProcessTime) {
-    return regressed
-               ? fmt::format("slower by {:.1f} % {}", percent(row.confirmation->effect), where)
-               : fmt::format("too noisy now to rule out a slowdown of {:.1f} % {}", 100 * tolerance, where);
-  }
-  const std::string what = row.metric == &kSuccess
-                               ? fmt::format("instances: {} lost, {} gained", row.worse(), row.better())
-                               : fmt::format("{} {:+.1f} %", row.metric->name, percent(row.effect));
-  return fmt::format("{} {}{} (p = {:.2g})", what, where, regressed ? "" : ", which may be chance",
-                     row.adjusted_p);
-}
-
-/// Raises cells and the whole by the rows of one metric. For the whole the row over all cells speaks where
-/// none is graver, else the cell that is worst.
-void judge_metric(Judgement& judgement, const std::vector<Difference*>& rows, double tolerance) {
-  const Difference* worst = nullptr;
-  std::map<Verdict, std::size_t> cells;
-  for (const Difference* row : rows) {
-    if (!row->verdict || *row->verdict <= Verdict::kChanged) continue;
-    if (row->cell) judgement.cells[*row->cell].raise(*row->verdict, words(judgement, *row, tolerance));
-    cells[*row->verdict] += row->cell ? 1U : 0U;
-    if (worst == nullptr || *row->verdict > *worst->verdict ||
-        (*row->verdict == *worst->verdict && worst->cell && row->effect > worst->effect)) {
-      worst = row;
-    }
-  }
-  if (worst == nullptr) return;
-  const std::size_t others = cells[*worst->verdict] - (worst->cell ? 1U : 0U);
-  judgement.all.raise(*worst->verdict,
-                      words(judgement, *worst, tolerance) +
-                          (others > 0 ? fmt::format("; cells like that: {} more", others) : ""));
-}
-
-void judge_behaviour(Judgement& judgement, Verdict changed) {
-  const auto raise = [changed](Judged& judged, const std::string& first) {
-    if (judged.newly_invalid > 0) {
-      judged.raise(Verdict::kRegressed,
-                   fmt::format("{} plans of the head are invalid", judged.newly_invalid));
-    }
-    if (judged.differing == 0) return;
-    const std::string why = changed == Verdict::kRegressed ? "first " + first
-                            : changed == Verdict::kChanged ? "and nothing is worse for certain"
-                                                           : "as allowed";
-    judged.raise(changed, fmt::format("{} of {} plannings gave another result, {}", judged.differing,
-                                      judged.compared, why));
-  };
-  std::vector<bool> known(judgement.cells.size(), false);
-  for (const Finding& finding : judgement.findings) {
-    const std::string& instance = judgement.result(finding).instance;
-    Judged& cell = judgement.cells[finding.cell];
-    if (finding.what.kind == ChangeKind::kRepetition) {
-      for (Judged* judged : {&cell, &judgement.all}) {
-        judged->raise(Verdict::kRegressed, instance + " gives another result when it is planned again");
-      }
-    }
-    if (!known[finding.cell]) raise(cell, instance);
-    known[finding.cell] = true;
-  }
-  if (!judgement.findings.empty())
-    raise(judgement.all, judgement.result(judgement.findings.front()).instance);
 }
 
 std::string sameness_text(const Judged& all) {
@@ -153,7 +88,167 @@ std::string sameness_text(const Judged& all) {
       all.compared, all.cut_short);
 }
 
+double percent(double log_ratio) { return 100 * std::expm1(log_ratio); }
+
+/// " (95 %: +4.8 to +6.3)"; empty if there is no such interval.
+std::string interval_text(double low, double high, bool signs) {
+  constexpr double kNoDigit = 0.05;  // it would be "+0.0"
+  if (!std::isfinite(low) || !std::isfinite(high)) return "";
+  if (std::abs(low) < kNoDigit && std::abs(high) < kNoDigit) return "";
+  return signs ? fmt::format(" (95 %: {:+.1f} to {:+.1f})", low, high)
+               : fmt::format(" (95 %: {:.1f} to {:.1f})", low, high);
+}
+
+/// Why a row does not count for certain.
+std::string doubt(const Difference& row) {
+  if (row.verdict != Verdict::kInconclusive) return "";
+  return row.metric->test == Test::kFreshPairs ? ", too noisy now to tell" : ", which may be chance";
+}
+
+/// What rows of one metric say together: the one over all cells, then the worst cell, the others counted.
+std::string words(const Judgement& judgement, const std::vector<const Difference*>& rows) {
+  const Difference* pooled = nullptr;
+  const Difference* worst = nullptr;
+  std::size_t cells = 0;
+  for (const Difference* row : rows) {
+    if (!row->cell) {
+      pooled = row;
+      continue;
+    }
+    ++cells;
+    if (worst == nullptr || std::abs(row->effect) > std::abs(worst->effect)) worst = row;
+  }
+  std::string text = pooled != nullptr ? words(*pooled) : "";
+  if (worst == nullptr) return text + doubt(*pooled);
+  const double effect = percent(worst->effect);
+  if (pooled == nullptr) {
+    text += words(*worst);
+  } else if (worst->metric == &kProcessTime) {
+    text += fmt::format(", most of all {:.1f} %", std::abs(effect));
+  } else {
+    text += worst->metric == &kSuccess ? fmt::format(", most of all {:+.1f} points", -100 * worst->effect)
+                                       : fmt::format(", most of all {:+.1f} %", effect);
+  }
+  text += " in " + judgement.cells[*worst->cell].name + doubt(*worst);
+  const auto all = std::count_if(judgement.differences.begin(), judgement.differences.end(),
+                                 [worst](const Difference& row) {
+                                   return row.cell && row.metric == worst->metric && !row.pairs.empty();
+                                 });
+  if (cells > 1) text += fmt::format(" ({} of {} cells are like that)", cells, all);
+  return text;
+}
+
+/// In the order in which people ask.
+constexpr const Metric* kInWords[] = {&kProcessTime, &kSuccess,      &kFlowtime, &kMakespan,     &kExpansions,
+                                      &kGenerations, &kInstructions, &kTries,    &kProcessMemory};
+
+/// Raises cells and the whole by their rows, and says why.
+void judge_metrics(Judgement& judgement, bool excused) {
+  constexpr Verdict kOf[] = {Verdict::kRegressed, Verdict::kInconclusive, Verdict::kImproved};
+  std::vector<std::string> said;
+  for (const Verdict verdict : kOf) {
+    for (const Metric* metric : kInWords) {
+      if (excused && metric->test == Test::kFreshPairs) continue;
+      std::vector<const Difference*> rows;
+      for (const Difference& row : judgement.differences) {
+        if (row.metric != metric || row.verdict != verdict) continue;
+        rows.push_back(&row);
+        if (row.cell) judgement.cells[*row.cell].raise(verdict, words(row) + doubt(row));
+      }
+      if (rows.empty()) continue;
+      said.push_back(words(judgement, rows));
+      judgement.all.verdict = std::max(judgement.all.verdict, verdict);
+    }
+  }
+  for (const std::string& text : said)
+    judgement.all.reason += (judgement.all.reason.empty() ? "" : "; ") + text;
+}
+
+std::string changes_text(const Judged& judged) {
+  const std::size_t work = judged.differing - judged.other_plans;
+  if (judged.other_plans == 0)
+    return fmt::format("plans unchanged, other work in {} of {}", work, judged.compared);
+  return fmt::format("{} of {} plannings changed", judged.other_plans, judged.compared);
+}
+
+void judge_behaviour(Judgement& judgement) {
+  std::vector<Judged*> all = {&judgement.all};
+  for (Judged& cell : judgement.cells) all.push_back(&cell);
+  for (Judged* judged : all) {
+    if (judged->newly_invalid > 0) {
+      judged->raise(Verdict::kRegressed,
+                    fmt::format("{} plans of the head are invalid", judged->newly_invalid));
+    }
+  }
+  for (const Finding& finding : judgement.findings) {
+    if (finding.what.kind != ChangeKind::kRepetition) continue;
+    for (Judged* judged : {&judgement.cells[finding.cell], &judgement.all}) {
+      judged->raise(Verdict::kRegressed,
+                    judgement.result(finding).instance + " gives another result when it is planned again");
+    }
+  }
+}
+
+/// Adds what changed without being worse, and what stayed as it was.
+void complete(Judged& judged, bool expected, const Difference* time, const Difference* flowtime) {
+  const auto add = [&judged](const std::string& text) {
+    judged.reason += (judged.reason.empty() ? "" : "; ") + text;
+  };
+  const auto tells = [](const Difference* row) {
+    return row != nullptr && !row->pairs.empty() &&
+           (!row->verdict || (*row->verdict != Verdict::kRegressed && *row->verdict != Verdict::kImproved &&
+                              *row->verdict != Verdict::kInconclusive));
+  };
+  if (judged.other_plans > 0) judged.verdict = std::max(judged.verdict, Verdict::kChanged);
+  if (judged.differing > 0) {
+    add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
+  } else {
+    add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
+  }
+  if (tells(time)) add(words(*time));
+  if (tells(flowtime) && judged.verdict > Verdict::kImproved) add(words(*flowtime));
+}
+
 }  // namespace
+
+std::string words(const Difference& row) {
+  const double effect = percent(row.effect);
+  if (row.metric == &kSuccess) {
+    return fmt::format("success {:+.1f} points: {} of {} plannings lost, {} gained (p = {:.2g})",
+                       -100 * row.effect, row.lost, row.plannings, row.gained, row.adjusted_p);
+  }
+  if (row.metric != &kProcessTime) {
+    return fmt::format("{} {:+.1f} %{}", row.metric->name, effect,
+                       interval_text(percent(row.at_least), percent(row.at_most), true));
+  }
+  if (row.verdict == Verdict::kRegressed) {
+    return fmt::format("{:.1f} % slower{}", effect,
+                       interval_text(percent(row.at_least), percent(row.at_most), false));
+  }
+  if (row.verdict == Verdict::kImproved) {
+    return fmt::format("faster: {:.1f} % less time{}", -effect,
+                       interval_text(-percent(row.at_most), -percent(row.at_least), false));
+  }
+  const std::string interval = interval_text(percent(row.at_least), percent(row.at_most), true);
+  return fmt::format("{}time {:+.1f} %{}", row.verdict == Verdict::kEquivalent ? "no slowdown: " : "", effect,
+                     interval);
+}
+
+std::string sight_text(const Judgement& judgement) {
+  std::string text;
+  for (const Metric* metric : kInWords) {
+    const Difference* row = judgement.find(*metric, std::nullopt);
+    if (row == nullptr || metric->test == Test::kFreshPairs || row->pairs.empty()) continue;
+    // Where nothing differs, nothing is known of how changes scatter.
+    if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
+    const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
+                             : metric == &kSuccess
+                                 ? fmt::format("from {:.1f} points on", 100 * row->detectable)
+                                 : fmt::format("from {:.1f} % on", percent(row->detectable));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, from);
+  }
+  return text;
+}
 
 void Judged::raise(Verdict to, const std::string& why) {
   if (to < verdict) return;
@@ -210,31 +305,34 @@ void add_repetition(Judgement& judgement, Finding finding) {
   const std::size_t added = change(result.base, result.head) ? 0 : 1;  // else it is counted
   judgement.cells[finding.cell].differing += added;
   judgement.all.differing += added;
+  judgement.cells[finding.cell].other_plans += added;
+  judgement.all.other_plans += added;
   judgement.findings.push_back(std::move(finding));
 }
 
 void judge(Judgement& judgement, const JudgeOptions& options) {
-  judge_behaviour(judgement, options.changed);
-  std::map<const Metric*, std::vector<Difference*>> metrics;
-  for (Difference& row : judgement.differences) metrics[row.metric].push_back(&row);
-  for (const Metric* metric : kRecordedMetrics) {
-    judge_rows(metrics[metric]);
-    for (Difference* row : metrics[metric]) {
-      if (metric == &kFlowtime && !options.quality) row->verdict.reset();
+  judge_behaviour(judgement);
+  // First all cells together, then cells: each family has its own chance of a false alarm.
+  std::vector<Difference*> pooled;
+  std::vector<Difference*> cells;
+  bool slower = false;
+  for (Difference& row : judgement.differences) {
+    if (row.metric->test == Test::kFreshPairs) {
+      slower = slower || row.verdict > Verdict::kEquivalent;
+    } else if (row.cell ? row.metric->judges : row.metric->judges_pooled) {
+      (row.cell ? cells : pooled).push_back(&row);
     }
-    judge_metric(judgement, metrics[metric], options.tolerance);
   }
-  Judged& all = judgement.all;
-  if (const std::vector<Difference*>& times = metrics[&kProcessTime]; !times.empty()) {
-    const bool slower = std::any_of(times.begin(), times.end(), [](const Difference* row) {
-      return row->verdict > Verdict::kEquivalent;
-    });
-    const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
-    if (!excused) judge_metric(judgement, times, options.tolerance);
-    all.raise(Verdict::kEquivalent, excused ? options.times_excuse : "no slowdown");
-  }
-  if (all.verdict > Verdict::kEquivalent || all.differing > 0) return;
-  all.reason = sameness_text(all) + (all.reason.empty() ? "" : "; " + all.reason);
+  judge_recorded(pooled, options.floors);
+  judge_recorded(cells, options.floors);
+  const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
+  judge_metrics(judgement, excused);
+  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes, nullptr, nullptr);
+  const Difference* time = judgement.find(kProcessTime, std::nullopt);
+  if (time != nullptr) judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
+  complete(judgement.all, options.expects_changes, excused ? nullptr : time,
+           judgement.find(kFlowtime, std::nullopt));
+  if (excused) judgement.all.reason += "; " + options.times_excuse;
 }
 
 std::string_view heading(const Judgement& judgement, const Finding& finding) {
@@ -244,10 +342,7 @@ std::string_view heading(const Judgement& judgement, const Finding& finding) {
 
 std::string behaviour_text(const Judgement& judgement) {
   const Judged& all = judgement.all;
-  if (all.differing == 0) return sameness_text(all);
-  const Difference& success = *judgement.find(kSuccess, std::nullopt);
-  return fmt::format("{} of {} plannings differ; instances: {} lost, {} gained, p = {:.2g}", all.differing,
-                     all.compared, success.worse(), success.better(), success.adjusted_p);
+  return all.differing == 0 ? sameness_text(all) : changes_text(all);
 }
 
 }  // namespace sipplab::bench

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 
 #include "bench/judge/junit.hpp"
 #include "bench/judge/replay_command.hpp"
@@ -28,25 +30,55 @@ std::string p_text(const Difference* row) {
   return row == nullptr || row->pairs.empty() ? kNothing : p_text(row->adjusted_p);
 }
 
-TextRow behaviour_row(const Judgement& judgement, Cell number) {
+TextRow behaviour_row(const Judgement& judgement, Cell number, bool times) {
   const Judged& cell = judgement.at(number);
   const Difference& success = *judgement.find(kSuccess, number);
   const Difference* flowtime = judgement.find(kFlowtime, number);
   const bool repeated = cell.instances != cell.compared;
+  const bool timed = times && cell.base_par2_s;
   return {cell.name,
           repeated ? fmt::format("{} ({})", cell.instances, cell.compared) : std::to_string(cell.compared),
           std::to_string(cell.differing),
           fmt::format("{} -> {}", cell.base_solved, cell.head_solved),
-          std::to_string(success.worse()),
-          std::to_string(success.better()),
+          std::to_string(success.lost),
+          std::to_string(success.gained),
           p_text(&success),
-          effect_text(judgement.find(kSweepTime, number)),
-          cell.base_par2_s ? fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s) : kNothing,
+          times ? effect_text(judgement.find(kSweepTime, number)) : kNothing,
+          timed ? fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s) : kNothing,
           std::to_string(cell.both_solved),
           effect_text(flowtime),
           p_text(flowtime),
           effect_text(judgement.find(kMakespan, number)),
           effect_text(judgement.find(kExpansions, number))};
+}
+
+/// What was judged and differs: a line for a metric over all cells, or in one.
+TextRow judged_row(const Judgement& judgement, const Difference& row, bool with_cell) {
+  const bool share = row.metric == &kSuccess;
+  const auto text = [share](double effect) {
+    if (!std::isfinite(effect)) return std::string(kNothing);
+    return share ? fmt::format("{:+.1f} points", -100 * effect) : percent_more(effect);
+  };
+  const double low = share ? row.at_most : row.at_least;
+  const double high = share ? row.at_least : row.at_most;
+  const std::string interval = std::isfinite(low) ? text(low) + " to " + text(high) : kNothing;
+  TextRow words = {
+      std::string(row.metric->name),
+      std::to_string(row.pairs.size()),
+      text(row.effect),
+      interval,
+      p_text(row.effect < 0 && row.metric == &kProcessTime ? row.adjusted_faster_p : row.adjusted_p),
+      !std::isfinite(row.detectable) ? kNothing
+      : share                        ? fmt::format("{:.1f} points", 100 * row.detectable)
+                                     : fmt::format("{:.1f} %", 100 * std::expm1(row.detectable)),
+      std::string(name(*row.verdict))};
+  if (with_cell) words.insert(words.begin(), judgement.at(row.cell).name);
+  return words;
+}
+
+bool is_news(const Difference& row) {
+  return row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
+         row.verdict == Verdict::kImproved;
 }
 
 TextRow time_row(const Judgement& judgement, const Difference& row) {
@@ -73,16 +105,40 @@ std::vector<TextRow> table(TextRow heading, std::vector<TextRow> rows) {
   return rows;
 }
 
-/// "over all cells: flowtime +1.3 % (95 %: +1.1 % to +1.5 %), ..."
-std::string pooled_text(const Judgement& judgement) {
-  std::string text;
-  for (const Metric* metric : {&kFlowtime, &kMakespan, &kExpansions}) {
-    const Difference* row = judgement.find(*metric, std::nullopt);
-    if (row == nullptr || !std::isfinite(row->at_most)) continue;
-    text += fmt::format("{} {} {} (95 %: {} to {})", text.empty() ? "over all cells:" : ",", metric->name,
-                        percent_more(row->effect), percent_more(row->at_least), percent_more(row->at_most));
+/// Over all cells: the metrics that differ. Empty if none does.
+std::vector<TextRow> pooled_table(const Judgement& judgement) {
+  std::vector<TextRow> rows;
+  for (const Difference& row : judgement.differences) {
+    if (row.cell || !row.verdict || row.worse() + row.better() == 0) continue;
+    rows.push_back(judged_row(judgement, row, false));
   }
-  return text.empty() ? text : text + "\n";
+  return table({"over all cells", "pairs", "change", "95 %", "p", "sees from", "verdict"}, rows);
+}
+
+/// The cells that are not like the others. Empty if all are alike.
+std::vector<TextRow> news_table(const Judgement& judgement) {
+  std::vector<TextRow> rows;
+  for (const Difference& row : judgement.differences) {
+    if (row.cell && is_news(row)) rows.push_back(judged_row(judgement, row, true));
+  }
+  return table({"cell", "metric", "pairs", "change", "95 %", "p", "sees from", "verdict"}, rows);
+}
+
+std::string cells_text(const Judgement& judgement) {
+  std::map<Verdict, std::size_t> counts;
+  for (const Judged& cell : judgement.cells) ++counts[cell.verdict];
+  std::string text;
+  for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count->second, name(count->first));
+  }
+  return fmt::format("cells: {}\n", text);
+}
+
+std::string sees_text(const Judgement& judgement) {
+  const std::string sight = sight_text(judgement);
+  if (sight.empty()) return "";
+  return fmt::format("sees, 19 times of 20, with {} plannings of {} instances: {}\n", judgement.all.compared,
+                     judgement.all.instances, sight);
 }
 
 std::string unpaired_text(const Judgement& judgement) {
@@ -100,8 +156,8 @@ std::string unpaired_text(const Judgement& judgement) {
 constexpr const char* kBehaviourNotes =
     "instances: of different content, and in brackets how many times they were planned, if more: "
     "repetitions and equal files are one observation, and so counted in lost, gained and p\n"
-    "p: adjusted for the number of cells (Holm); flowtime, makespan, expansions: mean change over instances "
-    "that both solved\n";
+    "p: adjusted (Holm) over metrics, or over cells and metrics; flowtime, makespan, expansions: mean change "
+    "over instances that both solved\n";
 constexpr const char* kSweepTimeNote =
     "time: median over instances of single plannings that were not interleaved; it informs and judges "
     "nothing, `sipplab gate` does\n";
@@ -116,10 +172,8 @@ std::vector<TextRow> time_table(const Judgement& judgement) {
   return table({"cell", "slowdown", "at most", "p", "fresh pairs", "p", "sees", "verdict"}, times);
 }
 
-std::string behaviour_notes(const Judgement& judgement) {
-  const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
-  return kBehaviourNotes + std::string(timed ? "" : kSweepTimeNote) + pooled_text(judgement) +
-         unpaired_text(judgement);
+std::string behaviour_notes(const Judgement& judgement, bool times) {
+  return kBehaviourNotes + std::string(times ? kSweepTimeNote : "") + unpaired_text(judgement);
 }
 
 std::string replay(const Judgement& judgement, const Finding& finding) {
@@ -142,10 +196,6 @@ std::string findings_text(const Report& report) {
   return text + fmt::format("and {} more: {}\n", findings.size() - shown, report.all_findings);
 }
 
-std::string verdict_text(const Judged& judged) {
-  return fmt::format("{}: {}", name(judged.verdict), judged.reason);
-}
-
 template <class T>
 ordered_json optional_json(const std::optional<T>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
@@ -153,6 +203,10 @@ ordered_json optional_json(const std::optional<T>& value) {
 
 ordered_json share_json(double log_ratio) {
   return std::isfinite(log_ratio) ? ordered_json(std::expm1(log_ratio)) : ordered_json(nullptr);
+}
+
+ordered_json finite_json(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
 ordered_json cell_json(const Judgement& judgement, std::size_t number) {
@@ -191,13 +245,20 @@ ordered_json finding_json(const Judgement& judgement, const Finding& finding) {
 
 }  // namespace
 
-std::vector<TextRow> behaviour_table(const Judgement& judgement) {
+std::string headline(const Judgement& judgement) {
+  std::string verdict(name(judgement.all.verdict));
+  for (char& letter : verdict) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  return verdict + ": " + judgement.all.reason;
+}
+
+std::vector<TextRow> behaviour_table(const Judgement& judgement, bool times) {
   const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
   std::vector<TextRow> rows;
   for (std::size_t i = 0; i < judgement.cells.size(); ++i) {
-    if (!timed || judgement.cells[i].differing > 0) rows.push_back(behaviour_row(judgement, i));
+    if (!timed || judgement.cells[i].differing > 0)
+      rows.push_back(behaviour_row(judgement, i, times && !timed));
   }
-  if (!rows.empty()) rows.push_back(behaviour_row(judgement, std::nullopt));
+  if (!rows.empty()) rows.push_back(behaviour_row(judgement, std::nullopt, times && !timed));
   return table({"cell", "instances", "differ", "solved", "lost", "gained", "p", "time", "PAR-2 [s]",
                 "both solved", "flowtime", "p", "makespan", "expansions"},
                rows);
@@ -205,30 +266,45 @@ std::vector<TextRow> behaviour_table(const Judgement& judgement) {
 
 std::string report_text(const Report& report) {
   const Judgement& judgement = report.judgement;
-  const std::vector<TextRow> behaviour = behaviour_table(judgement);
-  const std::vector<TextRow> times = time_table(judgement);
+  const bool timed = judgement.find(kProcessTime, std::nullopt) != nullptr;
   std::string text = fmt::format("base {}\nhead {}\n\nexact: {}\n{}\n", report.base, report.head,
                                  behaviour_text(judgement), findings_text(report));
-  if (!behaviour.empty()) text += terminal_table(behaviour, 1) + "\n" + behaviour_notes(judgement) + "\n";
-  if (!times.empty()) text += terminal_table(times, 1) + "\n";
-  return text + report.notes + (report.notes.empty() ? "" : "\n") + verdict_text(judgement.all) + "\n";
+  const std::vector<TextRow> behaviour = behaviour_table(judgement);
+  if (!behaviour.empty()) {
+    text += terminal_table(behaviour, 1) + "\n" + behaviour_notes(judgement, !timed) + "\n";
+  }
+  for (const auto& rows : {time_table(judgement), pooled_table(judgement), news_table(judgement)}) {
+    if (!rows.empty()) text += terminal_table(rows, 1) + "\n";
+  }
+  return text + report.notes + sees_text(judgement) + cells_text(judgement) + "\n" + headline(judgement) +
+         "\n";
 }
 
 std::string report_markdown(const Report& report) {
   const Judgement& judgement = report.judgement;
-  const std::vector<TextRow> behaviour = behaviour_table(judgement);
-  const std::vector<TextRow> times = time_table(judgement);
-  std::string text =
-      fmt::format("### {}: {}\n\nBase {}, head {}.\n\n**Behaviour.** {}.\n", report.command,
-                  verdict_text(judgement.all), report.base, report.head, behaviour_text(judgement));
-  if (!judgement.findings.empty()) {
-    text +=
-        "\n<details><summary>Instances</summary>\n\n```\n" + findings_text(report) + "```\n\n</details>\n";
+  std::string text = fmt::format("**{}**\n\n`{}`: {} against {}. {}", headline(judgement), report.command,
+                                 report.head, report.base, cells_text(judgement));
+  for (const auto& rows : {pooled_table(judgement), news_table(judgement)}) {
+    if (!rows.empty()) text += "\n" + markdown_table(rows, 1);
   }
-  if (!behaviour.empty()) text += "\n" + markdown_table(behaviour, 1) + "\n" + behaviour_notes(judgement);
-  if (times.empty()) return text;
-  return text + "\n**Time**, head over base, processor time of planning.\n\n" + markdown_table(times, 1) +
-         "\n```\n" + report.notes + "```\n";
+  const auto fold = [&text](const std::string& title, const std::string& what) {
+    if (!what.empty()) {
+      text += fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", title, what);
+    }
+  };
+  const auto block = [](const std::string& lines) { return lines.empty() ? "" : "```\n" + lines + "```\n"; };
+  if (!judgement.findings.empty()) {
+    fold(fmt::format("Instances that differ: {}", judgement.findings.size()), block(findings_text(report)));
+  }
+  const std::vector<TextRow> behaviour = behaviour_table(judgement, false);
+  if (!behaviour.empty()) {
+    fold("Behaviour in each cell",
+         markdown_table(behaviour, 1) + "\n" + block(behaviour_notes(judgement, false)));
+  }
+  const std::vector<TextRow> times = time_table(judgement);
+  if (!times.empty()) fold("Time in each cell, head over base", markdown_table(times, 1));
+  fold("What this could see", block(report.notes + sees_text(judgement)));
+  return text;
 }
 
 std::string report_json(const Report& report) {
@@ -238,8 +314,9 @@ std::string report_json(const Report& report) {
   for (const auto& member : report.details.items()) json[member.key()] = member.value();
   json.update({{"compared", judgement.all.compared},
                {"differing", judgement.all.differing},
-               {"lost", success.worse()},
-               {"gained", success.better()}});
+               {"other_plans", judgement.all.other_plans},
+               {"lost", success.lost},
+               {"gained", success.gained}});
   for (const char* list : {"cells", "findings", "differences"}) json[list] = ordered_json::array();
   for (std::size_t i = 0; i < judgement.cells.size(); ++i) json["cells"].push_back(cell_json(judgement, i));
   for (const Finding& finding : judgement.findings)
@@ -278,16 +355,16 @@ ordered_json difference_json(const Judgement& judgement, const Difference& row) 
       {"worse", row.worse()},
       {"better", row.better()},
       {"effect", is_share ? ordered_json(row.effect) : share_json(row.effect)},
-      {"at_least", share_json(row.at_least)},
-      {"at_most", share_json(row.at_most)},
+      {"at_least", is_share ? finite_json(row.at_least) : share_json(row.at_least)},
+      {"at_most", is_share ? finite_json(row.at_most) : share_json(row.at_most)},
       {"p_value", is_tested ? ordered_json(row.p_value) : nullptr},
       {"adjusted_p_value", is_tested ? ordered_json(row.adjusted_p) : nullptr},
-      {"floor", share_json(row.floor)}};
+      {"floor", is_share ? finite_json(row.floor) : share_json(row.floor)}};
+  json["detectable"] = is_share ? finite_json(row.detectable) : share_json(row.detectable);
   if (row.metric == &kProcessTime) {
     json.update({{"confirm_effect", row.confirmation ? share_json(row.confirmation->effect) : nullptr},
                  {"confirm_p_value", row.confirmation ? ordered_json(row.confirmation->p_value) : nullptr},
-                 {"noise", share_json(row.noise)},
-                 {"detectable", share_json(row.detectable)}});
+                 {"noise", share_json(row.noise)}});
   }
   json["verdict"] = row.verdict ? ordered_json(name(*row.verdict)) : ordered_json(nullptr);
   return json;

@@ -29,8 +29,12 @@ std::string report_markdown(const Report& report);
 std::string report_json(const Report& report);
 std::string report_junit(const Report& report);
 
+/// "REGRESSED: flowtime +14.3 % ...": loud where something is to be done.
+std::string headline(const Judgement& judgement);
+
 /// Heading, cells, and all of them together; beside times of processes only cells in which something differs.
-std::vector<TextRow> behaviour_table(const Judgement& judgement);
+/// `times`: with those of sweeps, which did not run in turn.
+std::vector<TextRow> behaviour_table(const Judgement& judgement, bool times = true);
 
 /// One row as JSON; logarithms as ratios less one.
 nlohmann::ordered_json difference_json(const Judgement& judgement, const Difference& row);

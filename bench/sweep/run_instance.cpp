@@ -91,6 +91,18 @@ db::ResultRow described(const PlannerOptions& options, const PlanResult& result)
   return row;
 }
 
+db::ResultRow described(const PlannerOptions& options, const SolveResult& solved) {
+  db::ResultRow row = described(options, solved.plan);
+  row.planning_time_ns = nanoseconds(solved.seconds());
+  row.expansions = solved.statistics().expansions;
+  row.generations = solved.statistics().generations;
+  if (!solved.is_solved()) return row;
+  add_solution(solved.solution(), row);
+  row.ssi_kept_s = solved.ssi_kept_s();
+  if (solved.improvement && solved.improvement->log.was_cut_short) row.limit = "time";
+  return row;
+}
+
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result) {
   db::ResultRow row = described(options, result);
   if (result.status == PlanStatus::kSolved) {
@@ -136,18 +148,12 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   const SolveResult solved = solve(instance, options);
   const std::optional<std::int64_t> cpu_after_ns = cpu_time_ns();
   const std::optional<std::int64_t> counted = instructions.count();
-  db::ResultRow row = described(options, solved.plan);
+  db::ResultRow row = described(options, solved);
   row.instructions = counted;
   if (cpu_before_ns && cpu_after_ns) row.cpu_time_ns = *cpu_after_ns - *cpu_before_ns;
-  row.planning_time_ns = nanoseconds(solved.seconds());
-  row.expansions = solved.statistics().expansions;
-  row.generations = solved.statistics().generations;
   if (!solved.is_solved()) return row;
-  add_solution(solved.solution(), row);
-  row.ssi_kept_s = solved.ssi_kept_s();
   add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
   if (!solved.improvement) return row;
-  if (solved.improvement->log.was_cut_short) row.limit = "time";
   row.progress = progress_rows(solved);
   row.flowtime_bound_s = solved.improvement->log.bound.flowtime_s;
   row.makespan_bound_s = solved.improvement->log.bound.makespan_s;

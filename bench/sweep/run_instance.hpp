@@ -10,6 +10,9 @@ namespace sipplab::bench {
 /// What the planner returned, before the validator has spoken: not for the history.
 db::ResultRow described(const PlannerOptions& options, const PlanResult& result);
 
+/// The same of solve(): the last plan, the work of all steps, and the limit that ended the improvement.
+db::ResultRow described(const PlannerOptions& options, const SolveResult& solved);
+
 /// The row of the history for what the planner returned, repetition aside. A plan that
 /// the validator rejects has status invalid and the first violation as its message.
 db::ResultRow judged(const Instance& instance, const PlannerOptions& options, const PlanResult& result);

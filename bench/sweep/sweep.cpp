@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bench/interrupt.hpp"
-#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "sipplab/generator.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -26,6 +26,15 @@ std::vector<SweepEntry> entries_of(std::vector<NamedCase> cases) {
     entries.push_back(std::move(entry));
   }
   return entries;
+}
+
+/// Plans something small, so that what the first case is measured to take, memory above all, is not that of
+/// code which is read for the first time.
+void warm_up() {
+  GeneratorOptions robots;
+  robots.agents = 64;
+  const auto instance = generate_instance(warehouse_map(), robots);
+  if (instance) run_instance(*instance, {});
 }
 
 std::size_t instance_count(const ExpandedSweep& sweep) {
@@ -84,20 +93,21 @@ void Sweep::register_benchmarks(bool fill_counters) {
 bool Sweep::begin() {
   const db::Result<db::Done> started = recording_.start();
   if (!started) error_ = started.error();
+  if (started && !command_) warm_up();
   return started.has_value();
 }
 
 bool Sweep::stopping() const { return interrupted_by() != 0 || error_.has_value(); }
 
 Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& prepared,
-                                                     const SweepCase& parameters) {
+                                                     const SweepCase& parameters, PeakMemory& memory) {
   if (!prepared.broken.empty()) {
     db::ResultRow row;
     row.message = prepared.broken;
     return row;
   }
   const LowerBound& bound = bound_of(prepared, parameters.options);
-  const PeakMemory memory;
+  memory.restart();
   Expected<db::ResultRow, std::string> row = command_ ? command_->run(prepared.instance, parameters.options)
                                                       : run_instance(prepared.instance, parameters.options);
   if (!row) return row;
@@ -124,6 +134,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
   CaseOutcome outcome;  // of this repetition
   std::string violation;
   std::size_t next = 0;
+  PeakMemory memory;  // a case has its own baseline: the process holds what cases before it left
   for ([[maybe_unused]] auto iteration : state) {
     if (stopping()) {
       state.SkipWithError("stopped before its end");
@@ -131,7 +142,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     const std::size_t position = next++;
     const PreparedInstance& prepared = instances[position];
-    Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters);
+    Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters, memory);
     if (!planned) error_ = db::Error{db::ErrorKind::kInternal, std::move(planned.error())};
     if (command_ && stopping()) {
       state.SkipWithError("stopped before its end");  // the program was ended, too

@@ -15,6 +15,7 @@
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
+#include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/progress.hpp"
 #include "db/recorder.hpp"
 #include "planner/improve/static_times.hpp"
@@ -77,8 +78,8 @@ class Sweep {
  private:
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
-  Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared,
-                                                const SweepCase& parameters);
+  Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared, const SweepCase& parameters,
+                                                PeakMemory& memory);
   /// Computed once for all cases and repetitions.
   const LowerBound& bound_of(const PreparedInstance& prepared, const PlannerOptions& options);
 

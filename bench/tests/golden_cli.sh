@@ -193,7 +193,7 @@ expect 0 bench --suite dense --map warehouse --robots 128 --count 2 --time-limit
 expect 0 bench --suite smoke --map warehouse --robots 128 --time-limit inf --ssi 0 --reschedule none --order shortest --connectedness 2 --any-angle --count 2 --fallback complete --db dense.db
 equal "$("$sipplab" sql --db dense.db --format csv "SELECT planner, made_by, results, solved FROM v_plan_makers ORDER BY planner" | tail -n +2 | tr -d '\r' | tr '\n' ' ')" \
   "sipplab any-angle:no method:complete,complete,2,2 sipplab fallback:complete,complete,2,2 " "who made the plans"
-equal "$("$sipplab" sql --db dense.db --format csv "SELECT count(*), min(solved), min(peak_memory_bytes > 1000000), min(mean_expansions > 0) FROM v_work" | tail -n +2 | tr -d '\r')" \
+equal "$("$sipplab" sql --db dense.db --format csv "SELECT count(*), min(solved), min(peak_memory_bytes > 0), min(mean_expansions > 0) FROM v_work" | tail -n +2 | tr -d '\r')" \
   "2,2,1,1" "work of each case"
 refused 'expected the speed of agent 0' bench --instances mixed --fallback complete --db dense.db
 expect 0 runs --db history.db

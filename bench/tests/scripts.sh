@@ -42,7 +42,74 @@ refused '-x, expected' package -x
 refused "suite '/', expected a name" test-fresh /
 refused '--frobnicate, expected' test-fresh --frobnicate
 refused '--frobnicate, expected' pull-request --frobnicate HEAD
-refused 'usage' gate-trials --frobnicate
+refused '--frobnicate, expected' trials gate --frobnicate
+refused 'usage' trials
+refused "--worse 'makespan', expected" trials compare --worse makespan 0.1 3
+refused 'usage' bisect HEAD
+refused 'expected a commit' bisect HEAD no/such/commit
+refused "--calibrate 'x', expected" pull-request HEAD --calibrate x
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
-[ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused'
+
+# --- the judge of commits -----------------------------------------------------------
+
+# A project of six commits whose builds are this script: what the gate answers of each is in the file `code`.
+complain() { echo "BROKEN: $*" && broken=1; }
+mkdir -p toy/scripts/support programs && cd toy || exit 1
+cp "$scripts"/{pull-request,bisect} scripts/ && cp "$scripts/support/build_commit.sh" scripts/support/
+printf '#!/bin/sh\n' >scripts/setup && chmod +x scripts/setup
+cat >sipplab.sh <<'TEXT'
+#!/bin/sh
+case "$1" in
+  bench) printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
+  gate)
+    echo "$@" >>"$LOG"
+    head=''
+    while [ $# -gt 0 ]; do [ "$1" = --head ] && head=$2; shift; done
+    code=$(cat "$(dirname "$head")/code")
+    echo "**VERDICT $code**"
+    exit "$code"
+    ;;
+esac
+TEXT
+cat >../programs/cmake <<'TEXT'
+#!/bin/sh
+case "$1 $2" in
+  '--preset release') exit 0 ;;
+esac
+mkdir -p build/release && cp sipplab.sh build/release/sipplab && chmod +x build/release/sipplab && cp code build/release/code
+[ "$(cat code)" -ne 9 ]
+TEXT
+chmod +x ../programs/cmake
+export LOG=$work/log
+git init -q . && printf 'build\n' >.gitignore
+save() { git add -A && git -c user.name=t -c user.email=t@t commit -qm "$1"; }
+n=0
+for code in 0 5 9 3 0 1 1; do # equivalent, changed, broken, unclear, equivalent, worse, worse
+  echo "$code" >code && echo "$((n += 1))" >number && save "number $n"
+done
+judge() { PATH=$work/programs:$PATH timeout 120 "$@" >"$work.out" 2>"$work.err"; }
+judge scripts/bisect HEAD~6 HEAD || complain "bisect: exit code $?, $(tail -n 2 "$work.err" "$work.out")"
+grep -q "$(git rev-parse HEAD~1) is the first bad commit" "$work.out" || complain "bisect did not name the first bad commit: $(tail -n 5 "$work.out")"
+judge scripts/bisect --changed HEAD~6 HEAD~4 && grep -q "$(git rev-parse HEAD~5) is the first bad commit" "$work.out" ||
+  complain "bisect --changed did not name the commit with other plans: $(tail -n 5 "$work.out")"
+[ "$(git status --porcelain)" = '' ] && [ "$(cat number)" -eq 7 ] || complain 'bisect changed the checkout'
+
+# Other plans fail until a commit says that they are expected; the base is built once.
+git checkout -q HEAD~5
+: >"$LOG"
+judge scripts/pull-request HEAD~1
+[ $? -eq 5 ] && ! grep -q -- --expect-changes "$LOG" || complain "pull-request: other plans that nobody expected"
+grep -q 'Plans: changed' build/pull-request/summary.md || complain 'pull-request does not say how other plans are expected'
+[ "$(head -n 1 build/pull-request/summary.md)" = '**VERDICT 5**' ] || complain 'the verdict is not the first line'
+git -c user.name=t -c user.email=t@t commit -q --allow-empty -m 'A note
+
+Plans: changed'
+judge scripts/pull-request HEAD~2
+grep -q -- --expect-changes "$LOG" || complain 'pull-request did not see the line of the commit'
+rm -f build/base/*/build/release/code # a build that is there is not made again
+: >"$LOG" && judge scripts/pull-request HEAD~2 --expect-changes
+grep -q -- --expect-changes "$LOG" || complain 'pull-request did not pass on what is expected'
+[ -z "$(find build/base -name code -path '*release*')" ] || complain 'the base was built twice'
+
+[ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"

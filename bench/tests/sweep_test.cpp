@@ -137,6 +137,16 @@ TEST(PeakMemory, IsThatOfTheTimeSinceItBegan) {
   EXPECT_LE(*after.bytes(), with_it - kSurelyCounted);
 }
 
+TEST(PeakMemory, LeavesOutWhatWasThereBefore) {
+  FreshMemory before(std::size_t{64} << 20);
+  ASSERT_TRUE(before.is_there());
+  before.touch();
+  PeakMemory memory;
+  memory.restart();
+  if (!memory.bytes()) return;  // not measured on this system
+  EXPECT_LT(*memory.bytes(), std::int64_t{32} << 20);
+}
+
 TEST(PerfCounter, CountsWhatIsDoneAfterItBegan) {
   // Page faults: a counter of the kernel's own, on every machine that permits any, and of
   // nothing that takes time.

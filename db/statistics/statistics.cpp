@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <numeric>
 
 namespace sipplab::db::statistics {
 namespace {
@@ -47,12 +50,13 @@ RankedDifferences rank(std::vector<double> differences) {
 /// Sum of all doubled ranks.
 std::size_t doubled_total(const RankedDifferences& ranked) { return ranked.count * (ranked.count + 1); }
 
-/// Counts out, for every sum, the share of sign patterns that give it.
-double exact_wilcoxon(const RankedDifferences& ranked, std::size_t doubled_smaller) {
-  std::vector<double> probability(doubled_total(ranked) + 1, 0.0);
+/// Of all choices of some steps, twice the share whose sum is at most `smaller`: counts out, for every sum,
+/// the share of choices that give it. REQUIRES: smaller is at most half the sum of all.
+double exact_tails(const std::vector<std::size_t>& steps, std::size_t smaller) {
+  std::vector<double> probability(std::accumulate(steps.begin(), steps.end(), std::size_t{1}), 0.0);
   probability[0] = 1;
   std::size_t reach = 0;
-  for (const std::size_t step : ranked.doubled_ranks) {
+  for (const std::size_t step : steps) {
     reach += step;
     for (std::size_t sum = reach + 1; sum-- > 0;) {
       const double with = sum >= step ? probability[sum - step] : 0.0;
@@ -60,7 +64,7 @@ double exact_wilcoxon(const RankedDifferences& ranked, std::size_t doubled_small
     }
   }
   double tail = 0;
-  for (std::size_t sum = 0; sum <= doubled_smaller; ++sum) tail += probability[sum];
+  for (std::size_t sum = 0; sum <= smaller; ++sum) tail += probability[sum];
   return std::min(1.0, 2 * tail);
 }
 
@@ -109,12 +113,25 @@ std::optional<double> sign_test(std::uint64_t wins, std::uint64_t losses) {
 
 double mcnemar(std::uint64_t lost, std::uint64_t gained) { return sign_test(lost, gained).value_or(1.0); }
 
+double sign_flips(const std::vector<std::int64_t>& nets) {
+  std::vector<std::size_t> steps;
+  std::size_t lost = 0;
+  std::size_t all = 0;
+  for (const std::int64_t net : nets) {
+    if (net == 0) continue;
+    steps.push_back(static_cast<std::size_t>(std::abs(net)));
+    all += steps.back();
+    lost += net > 0 ? steps.back() : 0;
+  }
+  return exact_tails(steps, std::min(lost, all - lost));
+}
+
 std::optional<double> wilcoxon(const std::vector<double>& differences) {
   const RankedDifferences ranked = rank(differences);
   if (ranked.count == 0) return std::nullopt;
   const std::size_t doubled_smaller =
       std::min(ranked.doubled_positive, doubled_total(ranked) - ranked.doubled_positive);
-  return ranked.count <= kExactWilcoxonLimit ? exact_wilcoxon(ranked, doubled_smaller)
+  return ranked.count <= kExactWilcoxonLimit ? exact_tails(ranked.doubled_ranks, doubled_smaller)
                                              : normal_wilcoxon(ranked, doubled_smaller);
 }
 
@@ -127,6 +144,10 @@ ConfidenceInterval wilson_interval(double held, double of) {
   const double half = kNormalQuantile * std::sqrt(rate * (1 - rate) / of + weight / (4 * of)) / (1 + weight);
   // Exact at the ends, where rounding leaves a trace.
   return {held == 0 ? 0.0 : std::max(0.0, middle - half), held == of ? 1.0 : std::min(1.0, middle + half)};
+}
+
+double normal_quantile(double p) {
+  return boost::math::quantile(boost::math::normal_distribution<double, Policy>(), p);
 }
 
 double t_quantile(double freedom) { return boost::math::quantile(StudentsT(freedom), 0.975); }

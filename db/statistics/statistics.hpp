@@ -28,6 +28,11 @@ std::optional<double> sign_test(std::uint64_t wins, std::uint64_t losses);
 /// pairs that agree say nothing. 1 if none disagrees.
 double mcnemar(std::uint64_t lost, std::uint64_t gained);
 
+/// McNemar's test where an instance was planned several times, each a number of plannings lost less those
+/// gained: the share of all choices of signs whose sum is at least as far from zero. Exact, and mcnemar() if
+/// all are 1 or -1. 1 for none.
+double sign_flips(const std::vector<std::int64_t>& nets);
+
 /// Up to this many differences the distribution of ranks is counted out; beyond, it is
 /// the normal approximation with correction for ties and continuity.
 inline constexpr std::size_t kExactWilcoxonLimit = 100;
@@ -50,6 +55,9 @@ ConfidenceInterval wilson_interval(double held, double of);
 
 /// 97.5 % quantile of Student's t. REQUIRES: freedom > 0.
 double t_quantile(double freedom);
+
+/// Of the standard normal distribution. REQUIRES: 0 < p < 1.
+double normal_quantile(double p);
 
 /// One planning under a limit.
 struct TimedResult {

@@ -86,6 +86,23 @@ TEST(Statistics, mcnemar) {
   EXPECT_EQ(mcnemar(16, 6), mcnemar(6, 16));
 }
 
+TEST(Statistics, sign_flips) {
+  EXPECT_EQ(sign_flips({}), 1);
+  EXPECT_EQ(sign_flips({0, 0}), 1);
+  EXPECT_EQ(sign_flips({7}), 1);  // an instance that was planned often is one observation
+  // Of eight choices of signs, 3 + 1 + 1 alone is 5, and all against it -5.
+  expect_p(sign_flips({3, 1, 1}), 2.0 / 8);
+  expect_p(sign_flips({3, -1, 1, 0}), 6.0 / 8);
+  std::vector<std::int64_t> ones(22, 1);
+  std::fill_n(ones.begin(), 6, -1);
+  expect_p(sign_flips(ones), mcnemar(16, 6));
+}
+
+TEST(Statistics, normal_quantile) {
+  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.05), -1.6448536269514722, 1e-12);
+}
+
 TEST(Statistics, wilcoxon_exact) {
   EXPECT_FALSE(wilcoxon({}));
   EXPECT_FALSE(wilcoxon({0, 0}));
