@@ -8,8 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
+#include "db/summaries.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -111,10 +113,16 @@ class Merge {
       : connection_(connection), tables_(std::move(tables)), origin_(std::move(origin)) {}
 
   Result<MergeReport> run() {
+    // An attempt is written together with its results: where it is as it was, so are they.
+    SIPPLAB_TRY(
+        run("CREATE TABLE temp.changed AS SELECT s.id, s.run_id FROM shard.attempt AS s WHERE NOT EXISTS "
+            "(SELECT 1 FROM main.attempt AS d WHERE d.uuid = s.uuid "
+            "AND (d.ended_utc, d.status, d.cpu_time_ns) = (s.ended_utc, s.status, s.cpu_time_ns))"));
     for (const TableShape& table : tables_) {
       SIPPLAB_TRY(merge_table(table));
     }
     SIPPLAB_TRY(bring_up_to_date());
+    SIPPLAB_TRY(settle());
     return std::move(report_);
   }
 
@@ -173,8 +181,30 @@ class Merge {
     if (table.name == "cell") {
       last_cell_ = SIPPLAB_TRY(connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kMerging));
     }
-    // The results of a cell come with it or are there already: millions need not be looked up.
-    if (table.name == "result") condition = fmt::format("m_cell_id.new > {}", last_cell_);
+    // Results of a cell that is new come with it; of one that is not, those of attempts with news may be
+    // missing. Millions of others need not be looked up.
+    if (table.name == "result") {
+      SIPPLAB_TRY(run(fmt::format(
+          "CREATE TABLE temp.fresh AS SELECT m_cell_id.new AS cell_id, m_instance_id.new AS instance_id, "
+          "s.position, s.repetition FROM {} WHERE m_cell_id.new <= {} AND s.attempt_id IN (SELECT id FROM "
+          "temp.changed) AND NOT EXISTS (SELECT 1 FROM main.result AS d WHERE d.cell_id = m_cell_id.new AND "
+          "d.instance_id = m_instance_id.new AND d.position = s.position AND d.repetition = s.repetition)",
+          source.from, last_cell_)));
+    }
+    if (table.name == "result" || table.name == "progress") {
+      condition = fmt::format(
+          "(m_cell_id.new > {} OR EXISTS (SELECT 1 FROM temp.fresh WHERE fresh.cell_id = m_cell_id.new AND "
+          "fresh.instance_id = m_instance_id.new AND fresh.position = s.position AND "
+          "fresh.repetition = s.repetition))",
+          last_cell_);
+    }
+    if (table.name == "cell_summary") {
+      condition = fmt::format(
+          "NOT EXISTS (SELECT 1 FROM main.cell AS d WHERE (d.case_id, d.run_id) = (m_case_id.new, "
+          "m_run_id.new) "
+          "AND d.id <= {})",
+          last_cell_);
+    }
     const std::string sql = fmt::format(
         "INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING", table.name,
         columns, expressions, source.from, condition, table.has_key ? " ORDER BY s.id" : "");
@@ -211,7 +241,8 @@ class Merge {
         "first_parent_count = max(commit_.first_parent_count, s.first_parent_count) "
         "FROM shard.commit_ AS s WHERE s.hash = commit_.hash AND (s.ancestor_count > commit_.ancestor_count "
         "OR s.first_parent_count > commit_.first_parent_count)",
-        "UPDATE main.run SET status = s.status, ended_utc = s.ended_utc FROM shard.run AS s "
+        "UPDATE main.run SET status = s.status, "
+        "ended_utc = max(ifnull(run.ended_utc, s.ended_utc), s.ended_utc) FROM shard.run AS s "
         "WHERE s.uuid = run.uuid AND s.status <> run.status AND (s.status = 'finished' OR run.status = "
         "'running')",
         "UPDATE main.run SET excluded_reason = s.excluded_reason, excluded_utc = s.excluded_utc, "
@@ -247,6 +278,35 @@ class Merge {
     return Done{};
   }
 
+  /// Runs and cells that were here and got results: what is said of them together.
+  Result<Done> settle() {
+    constexpr const char* kUpdates[] = {
+        "UPDATE main.attempt SET ended_utc = s.ended_utc, status = s.status, cpu_time_ns = s.cpu_time_ns, "
+        "peak_memory_bytes = s.peak_memory_bytes FROM shard.attempt AS s "
+        "WHERE s.uuid = attempt.uuid AND s.ended_utc >= attempt.ended_utc AND s.id IN (SELECT id FROM "
+        "temp.changed)",
+        "UPDATE main.cell SET result_count = cell.result_count + n, finished_utc = max(cell.finished_utc, "
+        "s.finished_utc) "
+        "FROM (SELECT cell_id, count(*) AS n FROM temp.fresh GROUP BY cell_id) AS more, "
+        "temp.key_cell AS m JOIN shard.cell AS s ON s.id = m.old WHERE more.cell_id = cell.id AND m.new = "
+        "cell.id",
+        // Made again by summarise_cells(): reading a cell for each of a thousand files would take long.
+        "DELETE FROM main.cell_summary WHERE (case_id, run_id) IN "
+        "(SELECT case_id, run_id FROM main.cell WHERE id IN (SELECT cell_id FROM temp.fresh))",
+        "UPDATE main.run SET started_utc = min(run.started_utc, s.started_utc), "
+        "ended_utc = max(ifnull(run.ended_utc, s.ended_utc), ifnull(s.ended_utc, run.ended_utc)) "
+        "FROM shard.run AS s WHERE s.uuid = run.uuid AND s.id IN (SELECT run_id FROM temp.changed)",
+    };
+    for (const char* sql : kUpdates) SIPPLAB_TRY(connection_.execute(sql, kMerging));
+    auto select = SIPPLAB_TRY(Statement::prepare(
+        connection_,
+        "SELECT new FROM temp.key_run WHERE old IN (SELECT run_id FROM temp.changed) ORDER BY new",
+        kMerging));
+    const auto runs = SIPPLAB_TRY(select.collect([](const Statement& row) { return row.integer(0); }));
+    for (const std::int64_t run : runs) SIPPLAB_TRY(settle_sweep(connection_, run));
+    return Done{};
+  }
+
   Result<Done> run(const std::string& sql) {
     auto statement = SIPPLAB_TRY(Statement::prepare(connection_, sql, kMerging));
     if (sql.find("?1") != std::string::npos) statement.bind(origin_);
@@ -260,17 +320,31 @@ class Merge {
   MergeReport report_;
 };
 
+/// How `source` is opened beside the history: on read-only media without locks, as it was to be read.
 Result<Done> attach(Connection& connection, const fs::path& source) {
-  return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged", source.string());
+  {
+    // Says what is wrong with it, and brings it to this version.
+    const auto readable = SIPPLAB_TRY(Database::open_read_only(source));
+    if (readable.is_immutable()) {
+      return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged",
+                         sqlite::immutable_uri(source.string()));
+    }
+  }
+  // A file of no folder, and names that SQLite takes for something else.
+  return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged",
+                     fs::absolute(source).string());
 }
 
 void detach(Connection& connection, const std::vector<TableShape>& tables) {
+  // Nothing depends on it: the next merge begins with maps of its own.
   for (const TableShape& table : tables) {
-    // Nothing depends on it: the next merge begins with maps of its own.
     static_cast<void>(
         connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kMerging));
   }
-  static_cast<void>(connection.execute("DETACH shard", kMerging));
+  for (const char* sql :
+       {"DROP TABLE IF EXISTS temp.changed", "DROP TABLE IF EXISTS temp.fresh", "DETACH shard"}) {
+    static_cast<void>(connection.execute(sql, kMerging));
+  }
 }
 
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
@@ -291,14 +365,16 @@ std::int64_t MergeReport::rows_of(const std::string& table) const {
 }
 
 Result<MergeReport> merge_into(Database& database, const fs::path& source) {
+  auto report = SIPPLAB_TRY(merge_without_summaries(database, source));
+  SIPPLAB_TRY(summarise_cells(database.connection()));
+  return report;
+}
+
+Result<MergeReport> merge_without_summaries(Database& database, const fs::path& source) {
   std::error_code code;
   if (fs::equivalent(source, database.path(), code)) {
     return Unexpected{Error{ErrorKind::kBadInput,
                             fmt::format("{}: merged into itself, expected another file", source.string())}};
-  }
-  {
-    // Says what is wrong with it, and brings it to this version.
-    const auto readable = SIPPLAB_TRY(Database::open_read_only(source));
   }
   Connection& connection = database.connection();
   const auto tables = SIPPLAB_TRY(tables_of(connection));

@@ -19,11 +19,15 @@ struct MergeReport {
   std::int64_t rows_of(const std::string& table) const;
 };
 
-/// Adds what `source` has and `database` has not, in one transaction. A row is known by the
-/// columns of any unique index of its table: a run by its UUID, a case by its parameters.
-/// Doing it again adds nothing. If both have a run, its later state stays,
-/// and the later of its exclusion and inclusion; rows of results are never changed.
+/// Adds what `source` has and `database` has not, in one transaction, and makes the summaries. A row is known
+/// by the columns of any unique index of its table: a run by its UUID, a case by its parameters.
+/// Doing it again adds nothing. Parts of one sweep become one run; a planning that several of them hold
+/// stays as it came first. If both have a run, its later state stays, and the later of its exclusion and
+/// inclusion; rows of results are never changed.
 /// New runs get the name of the file as their origin, unless they have one.
 Result<MergeReport> merge_into(Database& database, const std::filesystem::path& source);
+
+/// The same of one of many files: cells that got results have no summary until summarise_cells().
+Result<MergeReport> merge_without_summaries(Database& database, const std::filesystem::path& source);
 
 }  // namespace sipplab::db

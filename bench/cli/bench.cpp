@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +19,7 @@
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/sweep/attempt.hpp"
 #include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
@@ -24,8 +28,10 @@
 #include "bench/sweep/shard.hpp"
 #include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep.hpp"
+#include "bench/sweep/task_plan.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
+#include "db/run_names.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
@@ -61,20 +67,29 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   return request;
 }
 
-/// Leaves the cases for which `keep` says so.
-template <class Keep>
-void keep_cases(bench::ExpandedSweep& sweep, Keep keep) {
-  std::vector<bench::NamedCase> kept;
-  for (bench::NamedCase& named : sweep.cases) {
-    if (keep(named)) kept.push_back(std::move(named));
-  }
-  sweep.cases = std::move(kept);
+/// Name of the benchmark as Google Benchmark completes it.
+std::string full_name(const bench::NamedCase& named, std::size_t iterations) {
+  return fmt::format("{}/iterations:{}/manual_time", named.name, iterations);
 }
 
-/// Name of the benchmark as Google Benchmark completes it.
-std::string full_name(const bench::ExpandedSweep& sweep, const bench::NamedCase& named) {
-  return fmt::format("{}/iterations:{}/manual_time", named.name,
-                     sweep.sets[named.parameters.set].instances.size());
+bool is_uuid(const std::string& text) {
+  constexpr std::size_t kLength = 36;
+  return text.size() == kLength && text.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
+/// A command line without some options, which have a value each.
+std::vector<std::string> arguments_without(const std::vector<std::string>& arguments,
+                                           const std::set<std::string>& options) {
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::size_t equals = arguments[i].find('=');
+    if (!options.contains(arguments[i].substr(0, equals))) {
+      kept.push_back(arguments[i]);
+    } else if (equals == std::string::npos) {
+      ++i;
+    }
+  }
+  return kept;
 }
 
 /// What must agree for a run to be taken up again: every case by name, and what its
@@ -84,10 +99,20 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
   info.suite = arguments.folders.empty() ? arguments.suite : "instances";
   info.shard = arguments.shard.value_or("");
   info.command_line = arguments.invocation.command_line;
+  if (arguments.task) {  // as the sweep was planned
+    info.command_line = "sipplab";
+    for (const std::string& argument : arguments_without(
+             arguments.invocation.arguments, {"--shard", "--sweep", "--task-of", "--db", "--resume"})) {
+      info.command_line += " " + argument;
+    }
+  }
   std::string cases;
   for (const bench::NamedCase& named : sweep.cases) {
-    cases += fmt::format("{} {} {}\n", full_name(sweep, named), named.parameters.radius_cells,
+    cases += fmt::format("{} {} {}\n", named.name, named.parameters.radius_cells,
                          named.parameters.speed_cells_per_s);
+    for (const auto& prepared : sweep.sets[named.parameters.set].instances) {
+      cases += prepared.row.content_hash + prepared.broken;
+    }
   }
   const PlannerOptions& options = sweep.cases.front().parameters.options;
   const auto same_limit = [&options](const bench::NamedCase& named) {
@@ -105,7 +130,16 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
                     command->memory_limit_mib, command->rounding);
   }
   info.seed = arguments.seed;
+  info.planned = static_cast<std::int64_t>(bench::planning_count(sweep, arguments.repetitions));
   static_cast<db::RunOrigin&>(info) = bench::run_origin();
+  info.attempt = bench::attempt_info();
+  // Parts on many machines agree on the id without having met.
+  if (is_uuid(arguments.sweep)) {
+    info.uuid = arguments.sweep;
+  } else if (arguments.shard || !arguments.sweep.empty()) {
+    info.uuid = bench::text_uuid(
+        fmt::format("{}\n{}\n{}\n{}", info.suite, info.options, info.build.binary_hash, arguments.sweep));
+  }
   return info;
 }
 
@@ -116,32 +150,68 @@ std::string next_commands(const BenchArguments& arguments, const std::string& ru
                      run.substr(0, kShortUuid));
 }
 
-struct Resumption {
-  std::optional<std::string> run;
-  std::vector<db::CaseInfo> finished;
-};
+/// Takes what a run holds out of what is to be done.
+db::Result<db::Done> leave_out_recorded(db::Database& database, const std::string& run,
+                                        bench::ExpandedSweep& sweep) {
+  const auto recorded = SIPPLAB_TRY(db::recorded_cases(database, run));
+  for (bench::NamedCase& named : sweep.cases) {
+    const db::CaseInfo row = bench::case_row(named.parameters);
+    const auto found = std::find_if(recorded.begin(), recorded.end(),
+                                    [&row](const auto& one) { return one.parameters == row; });
+    if (found == recorded.end()) continue;
+    std::set<bench::Planning> wanted(named.plannings.begin(), named.plannings.end());
+    for (const db::ResultRow& result : found->rows) {
+      if (wanted.erase({result.position, result.repetition}) > 0) named.outcome.add(result);
+    }
+    std::erase_if(named.plannings, [&wanted](const auto& planning) { return !wanted.contains(planning); });
+  }
+  return db::Done{};
+}
 
-db::Result<Resumption> find_resumption(db::Database& database, const db::RunInfo& info) {
-  Resumption resumption;
-  const auto found = SIPPLAB_TRY(db::find_resumable_run(database, info));
-  if (!found) return resumption;
-  resumption.run = found->uuid;
-  resumption.finished = SIPPLAB_TRY(db::finished_cases(database, *resumption.run));
-  return resumption;
+std::size_t count_left(const bench::ExpandedSweep& sweep) {
+  std::size_t left = 0;
+  for (const bench::NamedCase& named : sweep.cases) left += named.plannings.size();
+  return left;
+}
+
+/// The run to go on with, of which the cases lose what it holds; none: a new one begins.
+db::Result<std::optional<db::EarlierRun>> take_up(const BenchArguments& arguments, db::Database& database,
+                                                  const db::RunInfo& info, bench::ExpandedSweep& sweep) {
+  const bool resumes = arguments.resume->count() > 0;
+  std::optional<std::string> named;
+  if (!arguments.resumed_run.empty()) named = arguments.resumed_run;
+  std::optional<db::EarlierRun> earlier;
+  if (resumes || !info.uuid.empty()) earlier = SIPPLAB_TRY(db::find_earlier_run(database, info, named));
+  // Another shard joins its run without a word; the same one again may be a mistake.
+  if (earlier && !resumes && earlier->has_shard) {
+    return Unexpected{db::run_is_there(database, earlier->uuid)};
+  }
+  if (resumes && !earlier) diagnose("no run of this command and build: starting a new one");
+  if (!earlier) return earlier;
+  if (earlier->being_written) {
+    return Unexpected{db::Error{db::ErrorKind::kBadInput,
+                                fmt::format("{}: run {} is being written, expected its process to have ended",
+                                            database.path().string(), earlier->uuid)}};
+  }
+  const std::size_t all = count_left(sweep);
+  SIPPLAB_TRY(leave_out_recorded(database, earlier->uuid, sweep));
+  const std::size_t left = count_left(sweep);
+  diagnose(fmt::format("resuming run {}: {} of {} plannings are there", earlier->uuid, all - left, all));
+  return earlier;
 }
 
 int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, bench::Sweep& sweep,
-           const std::string& suite, const std::string& database) {
+           const std::string& suite, const std::string& database, const std::string& run) {
   const auto& entries = sweep.entries();
   const bool finished =
-      std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished; });
+      std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished(); });
   if (arguments.json) {
-    print(bench::result_json(entries, suite, sweep.run_uuid(), database, finished));
+    print(bench::result_json(entries, suite, run, database, finished));
   } else if (flags.format.empty() && !arguments.quiet) {
     print(bench::result_table(entries));
   }
   if (sweep.error()) return fail(*sweep.error());
-  diagnose(fmt::format("recorded in {} as run {}", database, sweep.run_uuid()));
+  diagnose(fmt::format("recorded in {} as run {}", database, run));
   if (!sweep.first_invalid().empty()) {
     return fail(kInternalError, "sipplab: internal error: invalid plan: " + sweep.first_invalid());
   }
@@ -149,8 +219,9 @@ int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, 
     return fail(kSignalExitBase + bench::interrupted_by(),
                 "stopped before its end; the same command with --resume does the rest");
   }
-  if (arguments.when_finished) return arguments.when_finished(database, sweep.run_uuid());
-  diagnose(next_commands(arguments, sweep.run_uuid()));
+  // What becomes of a whole is no question to a part.
+  if (arguments.when_finished && !arguments.shard) return arguments.when_finished(database, run);
+  if (!arguments.task) diagnose(next_commands(arguments, run));
   return kSuccess;
 }
 
@@ -176,26 +247,14 @@ void say_notes(const std::vector<std::string>& notes) {
 }
 
 /// Opens the history, runs the cases that are to be run, and reports.
-int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags,
+int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, const db::RunInfo& info,
               bench::ExpandedSweep cases) {
   const std::filesystem::path path = db::database_path(arguments.database);
-  const db::RunInfo info = run_info(arguments, cases);
-  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path));
-
+  // A part is written by one process, and carried about.
+  const auto journal = arguments.shard ? db::Journal::kRollback : db::Journal::kWriteAhead;
+  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path, journal));
   if (const auto line = find_taken_name(database, arguments)) return fail(kBadUsage, "sipplab: " + *line);
-
-  Resumption resumption;
-  if (arguments.resume) {
-    resumption = SIPPLAB_TRY_OR(fail, find_resumption(database, info));
-    const std::size_t all = cases.cases.size();
-    keep_cases(cases, [&resumption](const bench::NamedCase& named) {
-      const auto& finished = resumption.finished;
-      return std::find(finished.begin(), finished.end(), bench::case_row(named.parameters)) == finished.end();
-    });
-    diagnose(resumption.run ? fmt::format("resuming run {}: {} of {} cases are there", *resumption.run,
-                                          all - cases.cases.size(), all)
-                            : "no unfinished run of this command, build and machine: starting a new one");
-  }
+  const auto earlier = SIPPLAB_TRY_OR(fail, take_up(arguments, database, info, cases));
   say_notes(cases.notes);
   const std::string reason = bench::unfit_for_timing();
   if (!reason.empty()) diagnose("WARNING: " + reason + " in this build: its times are not worth comparing");
@@ -204,20 +263,104 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   if (const auto spec = command_of(arguments)) {
     command = SIPPLAB_TRY_OR(bad_usage, bench::CommandPlanner::make(*spec));
   }
-  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, resumption.run),
+  const bool nothing_left = count_left(cases) == 0;
+  const std::optional<std::string> run = earlier ? std::optional(earlier->uuid) : std::nullopt;
+  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, run),
                      arguments.repetitions, stderr_is_terminal(), std::move(command));
   sweep.register_benchmarks(flags.format == "csv");
-  if (sweep.entries().empty()) {
-    sweep.begin();
+  if (nothing_left) {
+    if (earlier->status != db::RunStatus::kFinished) sweep.begin();  // killed after its last planning
   } else {
-    bench::catch_interrupts();
+    bench::catch_warnings();
     benchmark::BenchmarkReporter* shown =
         flags.format.empty() ? nullptr : benchmark::CreateDefaultDisplayReporter();
     bench::RecordingReporter reporter(sweep, shown);
     benchmark::RunSpecifiedBenchmarks(&reporter, std::string("."));
   }
   sweep.end();
-  return report(arguments, flags, sweep, info.suite, path.string());
+  return report(arguments, flags, sweep, info.suite, path.string(),
+                sweep.run_uuid().empty() ? run.value_or("") : sweep.run_uuid());
+}
+
+/// Splits the sweep into tasks, and says how they are run.
+int plan_tasks(const BenchArguments& arguments, const db::RunInfo& info, const bench::ExpandedSweep& cases) {
+  const std::filesystem::path folder = *arguments.plan_tasks;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::exists(folder / "sweep.json", error)) {
+    return bad_usage(folder.string() +
+                     " holds a sweep, expected an empty folder, or `sipplab task` for that one");
+  }
+  std::optional<db::Database> history;
+  const std::filesystem::path path = db::database_path(arguments.database);
+  if (std::filesystem::exists(path, error)) {
+    history = SIPPLAB_TRY_OR(fail, db::Database::open_read_only(path));
+  }
+  bench::TaskPlan plan;
+  plan.sweep = info.uuid.empty() ? db::new_uuid() : info.uuid;
+  plan.plannings = info.planned.value_or(0);
+  plan.suite = info.suite;
+  plan.options = info.options;
+  plan.binary_hash = info.build.binary_hash;
+  plan.folder = std::filesystem::current_path(error).string();
+  plan.arguments = arguments_without(arguments.invocation.arguments,
+                                     {"--plan-tasks", "--tasks", "--seconds-per-task", "--sweep", "--db"});
+  plan.seconds = SIPPLAB_TRY_OR(fail, bench::expected_seconds(cases, history ? &*history : nullptr));
+  double seconds = 0;
+  for (std::size_t i = 0; i < cases.cases.size(); ++i) {
+    seconds += plan.seconds[i] * static_cast<double>(arguments.repetitions) *
+               static_cast<double>(cases.sets[cases.cases[i].parameters.set].instances.size());
+  }
+  // What the largest array of Slurm is without a word of its administrator.
+  constexpr double kMostTasks = 1000;
+  const double wanted = std::clamp(std::ceil(seconds / arguments.seconds_per_task), 1.0, kMostTasks);
+  plan.tasks = std::min(arguments.tasks.value_or(static_cast<std::size_t>(wanted)),
+                        static_cast<std::size_t>(plan.plannings));
+  if (const auto failed = bench::write_task_plan(folder, plan)) return fail(*failed);
+  if (arguments.json) {
+    print_json({{"folder", folder.string()},
+                {"sweep", plan.sweep},
+                {"tasks", plan.tasks},
+                {"plannings", plan.plannings},
+                {"expected_seconds", seconds}});
+    return kSuccess;
+  }
+  print(
+      fmt::format("{} plannings in {} tasks, about {:.0f} s in all\n", plan.plannings, plan.tasks, seconds));
+  diagnose(fmt::format("next: each of `{0} task run {1} I`, I from 1 to {2}, then `{0} task collect {1}`",
+                       arguments.invocation.program, folder.string(), plan.tasks));
+  return kSuccess;
+}
+
+/// Deals out what this process is to do: all, or a shard of it.
+Expected<db::Done, std::string> deal_out(const BenchArguments& arguments, const db::RunInfo& info,
+                                         bench::ExpandedSweep& cases) {
+  if (!arguments.shard) {
+    bench::deal_all(cases, arguments.repetitions);
+    return db::Done{};
+  }
+  const bench::Shard shard = bench::parse_shard(*arguments.shard).value_or(bench::Shard{});
+  std::vector<double> seconds;
+  for (const bench::NamedCase& named : cases.cases)
+    seconds.push_back(bench::expected_seconds(named.parameters));
+  if (arguments.task) {
+    const auto plan = SIPPLAB_TRY(bench::read_task_plan(*arguments.task));
+    if (plan.binary_hash != info.build.binary_hash) {
+      return Unexpected{*arguments.task +
+                        " was planned by another build, expected the program that planned it"};
+    }
+    if (plan.options != info.options || plan.seconds.size() != seconds.size()) {
+      return Unexpected{*arguments.task +
+                        ": its instances have changed, expected what they were when it was planned"};
+    }
+    seconds = plan.seconds;
+  }
+  bench::deal(cases, arguments.repetitions, shard, arguments.seed, seconds);
+  if (cases.cases.empty()) {
+    return Unexpected{fmt::format("--shard {}: no planning is left for it, expected at most {} shards",
+                                  *arguments.shard, info.planned.value_or(0))};
+  }
+  return db::Done{};
 }
 
 }  // namespace
@@ -234,28 +377,27 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   }
 
   bench::ExpandedSweep cases = SIPPLAB_TRY_OR(bad_usage, bench::expand(request_of(arguments)));
+  const auto iterations = [&cases](const bench::NamedCase& named) {
+    return cases.sets[named.parameters.set].instances.size();
+  };
   std::vector<std::string> names;
-  for (const bench::NamedCase& named : cases.cases) names.push_back(full_name(cases, named));
+  for (const bench::NamedCase& named : cases.cases) names.push_back(full_name(named, iterations(named)));
   const std::vector<bool> matches = SIPPLAB_TRY_OR(bad_usage, bench::filter_matches(flags.filter, names));
   std::size_t position = 0;
-  keep_cases(cases, [&matches, &position](const bench::NamedCase&) { return matches[position++]; });
+  std::erase_if(cases.cases, [&](const bench::NamedCase&) { return !matches[position++]; });
   if (cases.cases.empty()) {
     return bad_usage("--benchmark_filter: no case matches " + in_quotes(flags.filter));
   }
-  if (arguments.shard) {
-    // Neighbouring cases cost alike: dealing them out in turn gives shards of like length.
-    const bench::Shard shard = bench::parse_shard(*arguments.shard).value_or(bench::Shard{});
-    position = 0;
-    keep_cases(cases, [&shard, &position](const bench::NamedCase&) { return shard.holds(position++); });
-    if (cases.cases.empty()) {
-      return bad_usage("--shard " + *arguments.shard + ": no case is left for it, expected fewer shards");
-    }
-  }
+  const db::RunInfo info = run_info(arguments, cases);
+  if (arguments.plan_tasks) return plan_tasks(arguments, info, cases);
+  SIPPLAB_TRY_OR(bad_usage, deal_out(arguments, info, cases));
   if (flags.list_tests) {
-    for (const bench::NamedCase& named : cases.cases) print(full_name(cases, named) + "\n");
+    for (const bench::NamedCase& named : cases.cases) {
+      print(full_name(named, arguments.shard ? named.plannings.size() : iterations(named)) + "\n");
+    }
     return kSuccess;
   }
-  return run_sweep(arguments, flags, std::move(cases));
+  return run_sweep(arguments, flags, info, std::move(cases));
 }
 
 namespace {
@@ -331,21 +473,54 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       true);
   command.add_option("--repetitions", arguments.repetitions, "the same as --benchmark_repetitions")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
-  command
-      .add_option("--shard", arguments.shard,
-                  "only part I of N of the cases; `sipplab merge` joins the histories")
-      ->check(check_shard)
-      ->type_name("I/N");
-  command.add_flag("--resume", arguments.resume, "do only what is missing of a run that was stopped");
+  add_part_flags(command, arguments);
   add_database_flag(command, arguments.database);
   command.add_flag("--json", arguments.json, "print one JSON document");
 }
 
 }  // namespace
 
-std::string check_shard(const std::string& text) {
-  return bench::parse_shard(text) ? std::string()
-                                  : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
+std::vector<CLI::Option*> add_part_flags(CLI::App& command, BenchArguments& arguments) {
+  CLI::Option* shard =
+      command
+          .add_option("--shard", arguments.shard,
+                      "only part I of N of the plannings; `sipplab merge` joins the histories to one run")
+          ->check([](const std::string& text) {
+            return bench::parse_shard(text)
+                       ? std::string()
+                       : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
+          })
+          ->type_name("I/N");
+  CLI::Option* sweep = command
+                           .add_option("--sweep", arguments.sweep,
+                                       "the run's id, or any word: shards with the same one belong together")
+                           ->type_name("ID");
+  CLI::Option* resume =
+      command
+          .add_option("--resume", arguments.resumed_run,
+                      "do only what is missing of RUN; default: the last run of this command")
+          ->expected(0, 1)
+          ->type_name("[RUN]");
+  arguments.resume = resume;
+  CLI::Option* plan = command
+                          .add_option("--plan-tasks", arguments.plan_tasks,
+                                      "plan nothing: split the sweep into tasks of a job array, in DIR")
+                          ->excludes(shard)
+                          ->excludes(resume)
+                          ->type_name("DIR");
+  CLI::Option* tasks = command.add_option("--tasks", arguments.tasks, "how many")
+                           ->needs(plan)
+                           ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  CLI::Option* seconds = command
+                             .add_option("--seconds-per-task", arguments.seconds_per_task,
+                                         "what each is expected to take, at most 1000 tasks")
+                             ->needs(plan)
+                             ->excludes(tasks)
+                             ->check(CLI::PositiveNumber)
+                             ->capture_default_str();
+  // Of `sipplab task run`: no user's business.
+  command.add_option("--task-of", arguments.task, "")->needs(shard)->group("");
+  return {shard, sweep, resume, plan, tasks, seconds};
 }
 
 Command add_bench_command(CLI::App& program, const Invocation& invocation) {

@@ -129,7 +129,7 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
     const CaseInfo parameters = test::sample_case(64);
     recorder.add(parameters, test::sample_instance(0),
                  solved ? test::sample_result(0) : test::failed_result());
-    test::must(recorder.commit_case(parameters));
+    test::must(recorder.commit());
     runs.push_back(recorder.run_uuid());
   }
   record_a_property_run();
