@@ -40,7 +40,9 @@ void catch_warnings() {
   action.sa_handler = remember;
   action.sa_flags = static_cast<int>(SA_RESTART);
   sigemptyset(&action.sa_mask);
+  // Schedulers send some of them to every process of a job, and these hand them on to each other.
   sigaction(SIGUSR1, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 const std::atomic<bool>& hurry_flag() { return in_a_hurry; }

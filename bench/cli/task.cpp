@@ -75,7 +75,8 @@ Expected<std::size_t, std::string> task_number(const TaskArguments& arguments, s
 
 volatile sig_atomic_t child = 0;
 void pass_on(int signal_number) {
-  if (child > 0) kill(static_cast<pid_t>(child), signal_number);
+  // Ctrl-C goes to all processes of a terminal.
+  if (child > 0 && signal_number != SIGINT) kill(static_cast<pid_t>(child), signal_number);
 }
 
 /// Runs this program again with other arguments, hands signals on to it, and waits for it.

@@ -43,6 +43,14 @@ refused "suite '/', expected a name" test-fresh /
 refused '--frobnicate, expected' test-fresh --frobnicate
 refused '--frobnicate, expected' pull-request --frobnicate HEAD
 refused 'usage' gate-trials --frobnicate
+refused 'usage' slurm
+refused '--dir, expected a value' slurm --dir
+refused "--tasks 'x', expected a number" slurm --tasks x --suite smoke
+refused "--missing '.*', expected a folder" slurm --missing no/such
+refused "time 'x', expected" slurm --fuzz x
+refused "--program 'no/such', expected a program" slurm --program no/such --suite smoke
+refused "--seed 'x', expected a number" test-slurm --seed x
+refused '--frobnicate, expected' test-slurm --frobnicate
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused'
 exit "$broken"
