@@ -114,8 +114,9 @@ class Merge {
 
   Result<MergeReport> run() {
     // An attempt is written together with its results: where it is as it was, so are they.
+    SIPPLAB_TRY(empty_table("temp.changed", "id INTEGER PRIMARY KEY, run_id INTEGER"));
     SIPPLAB_TRY(
-        run("CREATE TABLE temp.changed AS SELECT s.id, s.run_id FROM shard.attempt AS s WHERE NOT EXISTS "
+        run("INSERT INTO temp.changed SELECT s.id, s.run_id FROM shard.attempt AS s WHERE NOT EXISTS "
             "(SELECT 1 FROM main.attempt AS d WHERE d.uuid = s.uuid "
             "AND (d.ended_utc, d.status, d.cpu_time_ns) = (s.ended_utc, s.status, s.cpu_time_ns))"));
     for (const TableShape& table : tables_) {
@@ -184,8 +185,11 @@ class Merge {
     // Results of a cell that is new come with it; of one that is not, those of attempts with news may be
     // missing. Millions of others need not be looked up.
     if (table.name == "result") {
+      SIPPLAB_TRY(empty_table("temp.fresh",
+                              "cell_id INTEGER, instance_id INTEGER, position INTEGER, repetition INTEGER, "
+                              "PRIMARY KEY (cell_id, instance_id, position, repetition)"));
       SIPPLAB_TRY(run(fmt::format(
-          "CREATE TABLE temp.fresh AS SELECT m_cell_id.new AS cell_id, m_instance_id.new AS instance_id, "
+          "INSERT INTO temp.fresh SELECT m_cell_id.new AS cell_id, m_instance_id.new AS instance_id, "
           "s.position, s.repetition FROM {} WHERE m_cell_id.new <= {} AND s.attempt_id IN (SELECT id FROM "
           "temp.changed) AND NOT EXISTS (SELECT 1 FROM main.result AS d WHERE d.cell_id = m_cell_id.new AND "
           "d.instance_id = m_instance_id.new AND d.position = s.position AND d.repetition = s.repetition)",
@@ -217,8 +221,7 @@ class Merge {
   /// Which key a row of the source has here.
   Result<Done> map_keys(const TableShape& table, const Source& source) {
     const std::string map = fmt::format("temp.\"key_{}\"", table.name);
-    SIPPLAB_TRY(connection_.execute(
-        fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kMerging));
+    SIPPLAB_TRY(empty_table(map, "old INTEGER PRIMARY KEY, new INTEGER NOT NULL"));
     for (const auto& key : table.unique) {
       std::string same;
       for (const std::string& column : key) {
@@ -307,6 +310,13 @@ class Merge {
     return Done{};
   }
 
+  /// Of this merge; it may be there from the one before.
+  Result<Done> empty_table(const std::string& name, const char* columns) {
+    SIPPLAB_TRY(
+        connection_.execute(fmt::format("CREATE TABLE IF NOT EXISTS {} ({})", name, columns), kMerging));
+    return connection_.execute("DELETE FROM " + name, kMerging);
+  }
+
   Result<Done> run(const std::string& sql) {
     auto statement = SIPPLAB_TRY(Statement::prepare(connection_, sql, kMerging));
     if (sql.find("?1") != std::string::npos) statement.bind(origin_);
@@ -335,18 +345,6 @@ Result<Done> attach(Connection& connection, const fs::path& source) {
                      fs::absolute(source).string());
 }
 
-void detach(Connection& connection, const std::vector<TableShape>& tables) {
-  // Nothing depends on it: the next merge begins with maps of its own.
-  for (const TableShape& table : tables) {
-    static_cast<void>(
-        connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kMerging));
-  }
-  for (const char* sql :
-       {"DROP TABLE IF EXISTS temp.changed", "DROP TABLE IF EXISTS temp.fresh", "DETACH shard"}) {
-    static_cast<void>(connection.execute(sql, kMerging));
-  }
-}
-
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
                                    const std::string& origin) {
   auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
@@ -364,24 +362,39 @@ std::int64_t MergeReport::rows_of(const std::string& table) const {
   return 0;
 }
 
-Result<MergeReport> merge_into(Database& database, const fs::path& source) {
-  auto report = SIPPLAB_TRY(merge_without_summaries(database, source));
-  SIPPLAB_TRY(summarise_cells(database.connection()));
-  return report;
-}
+namespace {
 
-Result<MergeReport> merge_without_summaries(Database& database, const fs::path& source) {
+Result<MergeReport> merge_one(Database& database, const std::vector<TableShape>& tables,
+                              const fs::path& source) {
   std::error_code code;
   if (fs::equivalent(source, database.path(), code)) {
     return Unexpected{Error{ErrorKind::kBadInput,
                             fmt::format("{}: merged into itself, expected another file", source.string())}};
   }
   Connection& connection = database.connection();
-  const auto tables = SIPPLAB_TRY(tables_of(connection));
   SIPPLAB_TRY(attach(connection, source));
   auto report = merge_attached(connection, tables, source.string());
-  detach(connection, tables);
+  // A file that stays attached is in the way of the next one.
+  const auto detached = connection.execute("DETACH shard", kMerging);
+  if (report && !detached) return Unexpected{detached.error()};
   return report;
+}
+
+}  // namespace
+
+Result<MergeReport> merge_into(Database& database, const fs::path& source) {
+  Result<MergeReport> report = MergeReport{};
+  SIPPLAB_TRY(merge_files(database, {source}, [&report](const fs::path&, const Result<MergeReport>& merged) {
+    report = merged;
+  }));
+  return report;
+}
+
+Result<Done> merge_files(Database& database, const std::vector<fs::path>& sources,
+                         const std::function<void(const fs::path&, const Result<MergeReport>&)>& merged) {
+  const auto tables = SIPPLAB_TRY(tables_of(database.connection()));
+  for (const fs::path& source : sources) merged(source, merge_one(database, tables, source));
+  return summarise_cells(database.connection());
 }
 
 }  // namespace sipplab::db

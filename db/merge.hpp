@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,10 @@ struct MergeReport {
 /// New runs get the name of the file as their origin, unless they have one.
 Result<MergeReport> merge_into(Database& database, const std::filesystem::path& source);
 
-/// The same of one of many files: cells that got results have no summary until summarise_cells().
-Result<MergeReport> merge_without_summaries(Database& database, const std::filesystem::path& source);
+/// The same of many files, one transaction each; summaries are made at the end. `merged` is told of each file
+/// what came of it: one that cannot be merged is passed over. The error, if the history itself fails.
+Result<Done> merge_files(
+    Database& database, const std::vector<std::filesystem::path>& sources,
+    const std::function<void(const std::filesystem::path&, const Result<MergeReport>&)>& merged);
 
 }  // namespace sipplab::db

@@ -23,7 +23,6 @@
 #include "db/database.hpp"
 #include "db/merge.hpp"
 #include "db/queries.hpp"
-#include "db/summaries.hpp"
 #include "planner/core/number.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
@@ -199,20 +198,18 @@ int collect(const TaskArguments& arguments) {
   std::size_t files = 0;
   std::int64_t added = 0;
   std::vector<std::string> unread;
+  std::vector<fs::path> sources;
   for (std::size_t task = 1; task <= plan.tasks; ++task) {
-    const fs::path file = bench::task_database(folder, task);
     std::error_code error;
-    if (!fs::exists(file, error)) continue;
-    const auto report = db::merge_without_summaries(database, file);
-    if (!report && report.error().kind == db::ErrorKind::kFull) return fail(report.error());
-    if (!report) {
-      unread.push_back(report.error().message);
-      continue;
+    if (fs::exists(bench::task_database(folder, task), error)) {
+      sources.push_back(bench::task_database(folder, task));
     }
-    ++files;
-    added += report->rows_of("result");
   }
-  SIPPLAB_TRY_OR(fail, db::summarise_cells(database.connection()));
+  SIPPLAB_TRY_OR(fail, db::merge_files(database, sources, [&](const fs::path&, const auto& report) {
+                   if (!report) return unread.push_back(report.error().message);
+                   ++files;
+                   added += report->rows_of("result");
+                 }));
   for (const std::string& line : unread) diagnose(line);
   const TaskStates states = states_of(folder, plan);
   say_failed(states);
