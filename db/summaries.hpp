@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
 #include "db/records.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/sqlite/statement.hpp"
 
 namespace sipplab::db {

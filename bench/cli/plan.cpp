@@ -15,11 +15,11 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/interrupt.hpp"
-#include "planner/io/load_instance.hpp"
-#include "planner/io/solution_io.hpp"
-#include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/solution_io.hpp"
+#include "sipplab/solve.hpp"
+#include "sipplab/svg.hpp"
 
 namespace sipplab::cli {
 namespace {

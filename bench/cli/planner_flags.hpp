@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/io/load_instance.hpp"
 #include "planner/options/option_table.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::cli {
 

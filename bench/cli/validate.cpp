@@ -12,11 +12,10 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "db/json_text.hpp"
-#include "planner/io/solution_io.hpp"
-#include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/validator/certify.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/solution_io.hpp"
+#include "sipplab/svg.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab::cli {
 namespace {

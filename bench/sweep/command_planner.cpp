@@ -20,11 +20,11 @@
 #include "bench/program.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/core/try.hpp"
-#include "planner/io/solution_io.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/solution_io.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "bench/temporary_folder.hpp"
 #include "db/records.hpp"
-#include "planner/core/expected.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab::bench {
 

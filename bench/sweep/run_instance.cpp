@@ -7,6 +7,7 @@
 
 #include "bench/sweep/instruction_count.hpp"
 #include "planner/core/number.hpp"
+#include "planner/improve/objective.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "db/records.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
 

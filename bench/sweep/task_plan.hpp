@@ -10,7 +10,7 @@
 
 #include "bench/sweep/expand.hpp"
 #include "db/database.hpp"
-#include "planner/core/expected.hpp"
+#include 
 
 namespace sipplab::bench {
 

@@ -7,7 +7,7 @@
 
 #include "planner/complete/exact_time.hpp"
 #include "planner/complete/visits.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

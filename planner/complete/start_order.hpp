@@ -5,7 +5,7 @@
 
 #include "planner/complete/exact_time.hpp"
 #include "planner/complete/visits.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

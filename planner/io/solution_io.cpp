@@ -1,10 +1,10 @@
 // Telling the formats of solutions apart: see solution_io.hpp.
-#include "planner/io/solution_io.hpp"
+#include "sipplab/solution_io.hpp"
 
-#include "planner/core/assert.hpp"
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

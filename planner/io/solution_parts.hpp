@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/io/solution_io.hpp"
+#include "sipplab/solution_io.hpp"
 
 namespace sipplab {
 

@@ -3,13 +3,13 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/write_xml.hpp"
 #include "planner/io/xml_options.hpp"
 #include "planner/io/xml_reader.hpp"
 #include "planner/io/xml_sections.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

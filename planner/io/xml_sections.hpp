@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "planner/instance/agent.hpp"
 #include "planner/io/xml_reader.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -9,7 +9,7 @@
 
 #include "planner/complete/exact_time.hpp"
 #include "planner/complete/schedule.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/core/expected.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -2,16 +2,29 @@
 // a blocked cell nor leave the grid.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "planner/core/assert.hpp"
-#include "planner/core/expected.hpp"
-#include "planner/grid/cell.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
+
+/// A cell of the grid; the origin is in the upper left corner.
+struct Cell {
+  std::int32_t x = 0;  ///< column
+  std::int32_t y = 0;  ///< row
+
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+constexpr Vec2 centre(Cell cell) { return {static_cast<double>(cell.x), static_cast<double>(cell.y)}; }
+
+/// Distance between two cell centres, in cells.
+inline double distance(Cell a, Cell b) { return norm(centre(a) - centre(b)); }
 
 class GridMap {
  public:

@@ -1,16 +1,22 @@
-// The result of a planning run.
+// Prioritized planning with start-safe intervals and re-scheduling.
+// [AY18]: Andreychuk and Yakovlev, AAMAS 2018, sections 3 (start-safe intervals)
+// and 4 (deterministic re-scheduling).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include "planner/options/options.hpp"
-#include "planner/prioritized/priority_order.hpp"
-#include "planner/search/single_agent_planner.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/single_agent_planner.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
+
+/// Agents from highest to lowest priority, by input position.
+using PriorityOrder = std::vector<AgentIndex>;
 
 /// One pass over an order; with ejection, planning until a robot fails.
 struct Try {
@@ -45,5 +51,16 @@ struct PlanResult {
   std::size_t tries() const { return trace.size(); }
   const PriorityOrder& order() const { return trace.back().order; }
 };
+
+/// Plans all agents with the given planner for one robot. The same instance, options and planner give the
+/// same result unless the time limit ends it.
+/// REQUIRES: !find_error(instance), ssi_s >= 0, options.rescheduling != Rescheduling::kEjection.
+PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
+                            SingleAgentPlanner& planner);
+
+/// The planner for one robot that the options name: AA-SIPP, or SIPP where any_angle is false, with headings
+/// and delays if the rules ask for them. The instance must outlive it.
+std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,
+                                                         const PlannerOptions& options);
 
 }  // namespace sipplab

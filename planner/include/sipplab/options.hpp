@@ -8,9 +8,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "planner/instance/motion_rules.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 
@@ -125,6 +126,24 @@ struct PlannerOptions {
   unsigned threads = 1;  ///< of improvement; the result does not depend on how many
 
   friend bool operator==(const PlannerOptions&, const PlannerOptions&) = default;
+};
+
+struct Option;  // planner/options/option_table.hpp
+
+/// The options that a command line or a file states; all others are left open.
+class StatedOptions {
+ public:
+  /// False, and nothing is stated, if the text is no value of the option.
+  bool state(const Option& option, std::string_view text);
+  bool states(std::string_view name) const;
+  bool empty() const { return stated_.empty(); }
+  /// The options with what was stated.
+  PlannerOptions applied_to(PlannerOptions options) const;
+
+  friend bool operator==(const StatedOptions&, const StatedOptions&) = default;
+
+ private:
+  std::vector<std::pair<const Option*, std::string>> stated_;
 };
 
 }  // namespace sipplab

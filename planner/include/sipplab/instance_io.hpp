@@ -1,6 +1,7 @@
-// From files to an Instance. Formats are told from the content, never from the
+// Instances from files and to files. Formats are told from the content, never from the
 // name: AA-SIPP(m) XML in one file or in parts, the older XML of the AAMAS 2018
-// archive, MovingAI .map and .scen, in any combination that makes sense.
+// archive, MovingAI .map and .scen, in any combination that makes sense. What is written is AA-SIPP(m) XML or
+// MovingAI, and is read back.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
-#include "planner/io/input_error.hpp"
-#include "planner/options/option_table.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 
@@ -49,5 +50,26 @@ std::string kind_without_robots(const std::string& path);
 
 /// The map alone, from a MovingAI .map or any XML with a <map>.
 Input<GridMap> load_map(const std::string& path);
+
+/// Everything that an Instance holds; reading it back gives an equal one.
+std::string write_instance_xml(const Instance& instance);
+
+/// The same in parts, one file each, as AA-SIPP(m) takes them.
+std::string write_task_xml(const Instance& instance);
+std::string write_map_xml(const GridMap& map);
+std::string write_obstacles_xml(const Instance& instance);
+
+/// The planner's part of a configuration for AA-SIPP(m) and what follows its format, with
+/// the file that the solution is to be written to.
+std::string write_config_xml(const PlannerOptions& options, const std::string& folder,
+                             const std::string& file);
+
+/// The map: `.` free, `@` blocked.
+std::string write_movingai_map(const GridMap& map);
+
+/// Starts and goals, on a map of this file name. The format has no place for ids,
+/// sizes, speeds, headings or obstacles; the optimal length is written as the
+/// straight distance.
+std::string write_movingai_scen(const Instance& instance, const std::string& map_name);
 
 }  // namespace sipplab

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "planner/instance/instance.hpp"
-#include "planner/solution/solution.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 

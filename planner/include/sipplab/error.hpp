@@ -1,11 +1,25 @@
-// A value or the reason why there is none. std::expected is C++23; this is the
-// part of it that the project uses.
+// How failures are told: a value or the reason why there is none, bad input as one line, broken invariants.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <variant>
 
-#include "planner/core/assert.hpp"
+// PLANNER_ASSERT(condition): an invariant of ours, never a check of input. Alive
+// in debug, property and fuzz builds (SIPPLAB_ASSERTIONS), free elsewhere.
+#ifdef SIPPLAB_ASSERTIONS
+#include <cstdio>
+#include <cstdlib>
+#define PLANNER_ASSERT(condition)                                                            \
+  do {                                                                                       \
+    if (!(condition)) {                                                                      \
+      std::fprintf(stderr, "%s:%d: broken invariant: %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                          \
+    }                                                                                        \
+  } while (false)
+#else
+#define PLANNER_ASSERT(condition) static_cast<void>(0)
+#endif
 
 namespace sipplab {
 
@@ -53,5 +67,18 @@ class [[nodiscard]] Expected {
  private:
   std::variant<T, E> state_;
 };
+
+struct InputError {
+  std::string file;
+  int line = 0;  ///< counted from 1; 0 if no line can be named
+  std::string what;
+  std::string expected;
+
+  /// "file:line: what, expected what", without line break.
+  std::string message() const;
+};
+
+template <class T>
+using Input = Expected<T, InputError>;
 
 }  // namespace sipplab

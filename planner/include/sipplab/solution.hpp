@@ -1,11 +1,12 @@
 // What a robot does: straight motions, turns and waits from time 0 on, then rest at
-// the last position for ever.
+// the last position for ever. A solution is one such trajectory for each agent.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "planner/grid/cell.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 
@@ -45,5 +46,25 @@ struct Trajectory {
 /// The same motion in the fewest pieces: consecutive waits are one wait, consecutive moves in one direction
 /// at the same speed are one move, and there is no wait at the end. Equal for every notation of a motion.
 Trajectory canonical(const Trajectory& trajectory);
+
+/// One trajectory for each agent of an instance, in input order.
+struct Solution {
+  std::vector<Trajectory> trajectories;
+
+  friend bool operator==(const Solution&, const Solution&) = default;
+};
+
+/// Whether any motion is a turn.
+bool has_turns(const Solution& solution);
+
+/// Latest arrival, in seconds; 0 without agents.
+double makespan_s(const Solution& solution);
+
+/// Sum of arrivals, in seconds ("sum of costs" elsewhere).
+double flowtime_s(const Solution& solution);
+
+/// 32 hexadecimal digits over the exact bits of all motions in canonical form: equal for equal motions,
+/// however they are written down, on every machine (XXH3, 128 bits).
+std::string plan_hash(const Solution& solution);
 
 }  // namespace sipplab

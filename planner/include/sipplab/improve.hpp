@@ -7,12 +7,26 @@
 #include <optional>
 #include <vector>
 
-#include "planner/improve/objective.hpp"
-#include "planner/improve/static_times.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/prioritized/plan_result.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
+
+/// What a plan costs.
+struct PlanCost {
+  double flowtime_s = 0;
+  double makespan_s = 0;
+};
+
+/// Lower bounds on the cost of any plan of the instance, in seconds.
+struct LowerBound {
+  double flowtime_s = 0;  ///< sum of the robots' static times
+  double makespan_s = 0;  ///< greatest of them
+};
+
+/// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 if
+/// there is no cost.
+double gap(double cost_s, double bound_s);
 
 /// A point of the curve: the plan's cost from then on.
 struct ProgressPoint {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "planner/core/expected.hpp"
 #include "planner/core/try.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::db {
 

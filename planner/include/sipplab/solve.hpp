@@ -3,14 +3,27 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "planner/improve/improve.hpp"
-#include "planner/solve/best_plan.hpp"
-#include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/improve.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
+
+/// A step of options.best that was taken.
+struct BestStep {
+  enum class Kind { kMethod, kEscalation, kEjection, kFallback };
+  Kind kind = Kind::kMethod;
+  double ssi_s = 0;
+  PlanStatus status = PlanStatus::kFailed;
+  std::size_t tries = 0;
+  double seconds = 0;            ///< wall clock that it took
+  double ended_s = 0;            ///< wall clock since the first step began
+  std::optional<PlanCost> cost;  ///< of its plan, if it gave one
+};
+/// "method", "escalation", "ejection", "fallback".
+std::string_view name(BestStep::Kind kind);
 
 struct SolveResult {
   PlanResult plan;              ///< before improvement

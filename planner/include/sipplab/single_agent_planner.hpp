@@ -1,18 +1,16 @@
-// What prioritized planning needs from a planner for one robot. Start-safe intervals and re-scheduling use
-// only this interface, so they work with any planner that can respect a ReservationTable.
+// What prioritized planning needs from a planner for one robot, and what it tells it. Start-safe intervals
+// and re-scheduling use only this interface, so they work with any planner that can respect Reservations.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 
-#include "planner/core/expected.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/instance/motion_rules.hpp"
-#include "planner/reservation/reservation_table.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 
@@ -52,15 +50,22 @@ struct SearchLimits {
   }
 };
 
-/// What a ReservationTable must know about an instance's robots.
-inline Askers askers_of(const Instance& instance, const MotionRules& rules = {}) {
-  Askers askers{largest_radius_cells(instance) + rules.inflate_distance_cells, 0, rules.inflate_time_s};
-  for (const Agent& agent : instance.agents) {
-    askers.max_speed_cells_per_s = std::max(askers.max_speed_cells_per_s, agent.speed_cells_per_s);
-  }
-  if (instance.agents.empty()) askers.max_speed_cells_per_s = 1;
-  return askers;
-}
+/// The space-time that planned robots, dynamic obstacles and protected starts occupy.
+class Reservations {
+ public:
+  virtual ~Reservations() = default;
+
+  /// Maximal closed spans in which a disk of this radius may stay at the cell, in order. Valid until
+  /// another radius is asked for, and during one search.
+  virtual std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells) = 0;
+
+  /// The least departure t >= from_s, in seconds, for which the straight move overlaps nothing. Gives up as
+  /// soon as every departure up to until_s is known to be unsafe and then returns some lower bound on the
+  /// least safe departure that is greater than until_s; kForever if no departure from from_s on is safe.
+  /// REQUIRES: two different cells of the map.
+  virtual double earliest_departure(Cell from, Cell to, double speed_cells_per_s, double radius_cells,
+                                    double from_s, double until_s) const = 0;
+};
 
 class SingleAgentPlanner {
  public:
@@ -68,7 +73,7 @@ class SingleAgentPlanner {
 
   /// A trajectory for `agent` of the instance given at construction that collides with nothing in
   /// `reservations`, or the reason why none was found. Adds its work to `statistics` in every case.
-  virtual Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
+  virtual Expected<Trajectory, PlanFailure> plan(AgentIndex agent, Reservations& reservations,
                                                  const SearchLimits& limits,
                                                  SearchStatistics& statistics) = 0;
 

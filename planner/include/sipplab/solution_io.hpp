@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
-#include "planner/io/input_error.hpp"
-#include "planner/options/options.hpp"
-#include "planner/solution/solution.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/solution.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab {
 
