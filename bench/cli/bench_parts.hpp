@@ -11,7 +11,7 @@
 #include "bench/sweep/expand.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
-#include 
+#include "sipplab/error.hpp"
 
 namespace sipplab::cli {
 

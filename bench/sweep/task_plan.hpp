@@ -10,7 +10,7 @@
 
 #include "bench/sweep/expand.hpp"
 #include "db/database.hpp"
-#include 
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 
