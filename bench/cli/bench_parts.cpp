@@ -98,7 +98,8 @@ db::Result<std::optional<db::EarlierRun>> take_up(const BenchArguments& argument
   if (earlier && !resumes && earlier->has_shard) {
     return Unexpected{db::run_is_there(database, earlier->uuid)};
   }
-  if (resumes && !earlier) diagnose("no run of this command and build: starting a new one");
+  if (resumes && !earlier && !arguments.task)
+    diagnose("no run of this command and build: starting a new one");
   if (!earlier) return earlier;
   if (earlier->being_written) {
     return Unexpected{db::Error{db::ErrorKind::kBadInput,
