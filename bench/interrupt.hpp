@@ -14,6 +14,14 @@ inline constexpr std::string_view kEndsAfterInstance =
 /// live as long as the program.
 void catch_interrupts(std::string_view line = kEndsAfterInstance);
 
+/// The same, and SIGUSR1, by which a scheduler says beforehand that time runs out: like SIGINT it asks for
+/// the end after what is at hand. SIGTERM sets hurry_flag(), too: what is at hand is to be given up. A second
+/// one of either does no more.
+void catch_warnings();
+
+/// Whether SIGTERM arrived after catch_warnings().
+const std::atomic<bool>& hurry_flag();
+
 /// The signal that arrived, or 0.
 int interrupted_by();
 

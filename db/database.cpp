@@ -40,33 +40,48 @@ std::optional<Error> find_path_error(const fs::path& path, bool must_exist) {
   return std::nullopt;
 }
 
-Result<Done> configure_for_writing(sqlite::Connection& connection) {
+Result<Done> configure_for_writing(sqlite::Connection& connection, Journal journal) {
   // WAL: readers go on while a case is written, and a killed writer leaves no half of
   // a transaction. NORMAL: a commit does not wait for the disk; a power failure can
   // take the newest cases, never the integrity.
   // The cache holds the index of some 500,000 instances (32 MiB), and the log grows to
   // 16 MiB before it is copied back: with SQLite's 2 and 4 MiB pages are written and
   // read again in the middle of a sweep.
+  // Of a rollback journal only FULL keeps the integrity.
+  const bool ahead = journal == Journal::kWriteAhead;
   for (const char* pragma :
-       {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL", "PRAGMA foreign_keys = ON",
+       {ahead ? "PRAGMA journal_mode = WAL" : "PRAGMA journal_mode = DELETE",
+        ahead ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON",
         "PRAGMA cache_size = -32768", "PRAGMA wal_autocheckpoint = 4096"}) {
     SIPPLAB_TRY(connection.execute(pragma, "preparing it for writing"));
   }
   return Done{};
 }
 
-bool has_write_ahead_log(const fs::path& path) {
+bool has_file(const fs::path& path, const char* suffix) {
   std::error_code code;
-  const auto size = fs::file_size(path.string() + "-wal", code);
+  const auto size = fs::file_size(path.string() + suffix, code);
   return !code && size > 0;
 }
 
+bool has_write_ahead_log(const fs::path& path) { return has_file(path, "-wal"); }
+
 // On a read-only medium SQLite cannot place its lock files. Without a log to replay
 // the file alone is the whole database, and no process can be writing to it.
-Result<sqlite::Connection> open_for_reading(const fs::path& path, SchemaState& state) {
+Result<sqlite::Connection> open_for_reading(const fs::path& path, SchemaState& state, bool& immutable) {
   auto connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kReadOnly));
   auto inspected = inspect(connection, migrations());
-  if (!inspected && inspected.error().kind == ErrorKind::kCannotOpen && !has_write_ahead_log(path)) {
+  const bool unwritable = !inspected && inspected.error().kind == ErrorKind::kCannotOpen;
+  for (const char* log : {"-wal", "-journal"}) {
+    if (!unwritable || !has_file(path, log)) continue;
+    return Unexpected{
+        Error{ErrorKind::kCannotOpen,
+              fmt::format("{0}: a program that was killed left {0}{1}, expected a copy of both where "
+                          "it can be written, or the permission to write here",
+                          path.string(), log)}};
+  }
+  immutable = unwritable;
+  if (unwritable) {
     connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kImmutable));
     inspected = inspect(connection, migrations());
   }
@@ -98,11 +113,11 @@ Database::LogSweeper::~LogSweeper() {
 
 int Database::latest_schema_version() { return migrations().back().version; }
 
-Result<Database> Database::open(const fs::path& path) {
+Result<Database> Database::open(const fs::path& path, Journal journal) {
   if (auto error = find_path_error(path, false)) return Unexpected{*error};
   auto connection = SIPPLAB_TRY(sqlite::Connection::open(path, sqlite::OpenMode::kReadWrite));
   SIPPLAB_TRY(inspect(connection, migrations()));
-  SIPPLAB_TRY(configure_for_writing(connection));
+  SIPPLAB_TRY(configure_for_writing(connection, journal));
   SIPPLAB_TRY(migrate(connection, migrations()));
   return Database{std::move(connection), path};
 }
@@ -110,7 +125,8 @@ Result<Database> Database::open(const fs::path& path) {
 Result<Database> Database::open_read_only(const fs::path& path) {
   if (auto error = find_path_error(path, true)) return Unexpected{*error};
   SchemaState state;
-  auto connection = SIPPLAB_TRY(open_for_reading(path, state));
+  bool immutable = false;
+  auto connection = SIPPLAB_TRY(open_for_reading(path, state, immutable));
   if (state.fresh) {
     return Unexpected{Error{
         ErrorKind::kNotADatabase,
@@ -118,9 +134,10 @@ Result<Database> Database::open_read_only(const fs::path& path) {
   }
   if (state.version < latest_schema_version()) {
     SIPPLAB_TRY(open(path));
-    connection = SIPPLAB_TRY(open_for_reading(path, state));
+    connection = SIPPLAB_TRY(open_for_reading(path, state, immutable));
   }
   Database database{std::move(connection), path};
+  database.is_immutable_ = immutable;
   database.sweeper_ = std::make_unique<LogSweeper>(path);
   return database;
 }

@@ -16,13 +16,19 @@ namespace sipplab::db {
 /// "sipplab.db" in the working directory.
 std::filesystem::path database_path(const std::optional<std::string>& option);
 
+/// How a writer keeps a transaction that is killed from leaving half of it.
+enum class Journal {
+  kWriteAhead,  ///< readers and writers beside each other, on one machine: the log is shared in memory
+  kRollback,    ///< one file after each transaction, on network file systems too where they have locks
+};
+
 /// An open history. Its schema is the one of this program.
 class Database {
  public:
   /// Opens for writing; a file that is missing or empty becomes a fresh history, an
   /// older one is migrated. A file that is something else, newer than this program, or
   /// older than the first release is refused and stays as it is, byte for byte.
-  static Result<Database> open(const std::filesystem::path& path);
+  static Result<Database> open(const std::filesystem::path& path, Journal journal = Journal::kWriteAhead);
 
   /// Opens for reading; a missing file is an error. An older history is migrated
   /// first, for which it must be writable. Where that is allowed, reading leaves no
@@ -31,6 +37,9 @@ class Database {
 
   sqlite::Connection& connection() { return connection_; }
   const std::filesystem::path& path() const { return path_; }
+
+  /// Opened for reading, from a medium on which nothing can be written.
+  bool is_immutable() const { return is_immutable_; }
 
   /// The schema version that this program writes.
   static int latest_schema_version();
@@ -54,6 +63,7 @@ class Database {
   std::unique_ptr<LogSweeper> sweeper_;  ///< of a reader; goes after its connection
   sqlite::Connection connection_;
   std::filesystem::path path_;
+  bool is_immutable_ = false;
 };
 
 }  // namespace sipplab::db

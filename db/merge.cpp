@@ -9,8 +9,10 @@
 #include <set>
 #include <string_view>
 
+#include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
+#include "db/summaries.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -114,11 +116,18 @@ class Merge {
       : connection_(connection), tables_(std::move(tables)), origin_(std::move(origin)) {}
 
   Result<MergeReport> run() {
+    // An attempt is written together with its results: where it is as it was, so are they.
+    SIPPLAB_TRY(empty_table("temp.changed", "id INTEGER PRIMARY KEY, run_id INTEGER"));
+    SIPPLAB_TRY(
+        run("INSERT INTO temp.changed SELECT s.id, s.run_id FROM shard.attempt AS s WHERE NOT EXISTS "
+            "(SELECT 1 FROM main.attempt AS d WHERE d.uuid = s.uuid "
+            "AND (d.ended_utc, d.status, d.cpu_time_ns) = (s.ended_utc, s.status, s.cpu_time_ns))"));
     for (const TableShape& table : tables_) {
       if (table.name == kKeptByTriggers) continue;
       SIPPLAB_TRY(merge_table(table));
     }
     SIPPLAB_TRY(bring_up_to_date());
+    SIPPLAB_TRY(settle());
     return std::move(report_);
   }
 
@@ -177,8 +186,33 @@ class Merge {
     if (table.name == "cell") {
       last_cell_ = SIPPLAB_TRY(connection_.query_int("SELECT ifnull(max(id), 0) FROM main.cell", kMerging));
     }
-    // The results of a cell come with it or are there already: millions need not be looked up.
-    if (table.name == "result") condition = fmt::format("m_cell_id.new > {}", last_cell_);
+    // Results of a cell that is new come with it; of one that is not, those of attempts with news may be
+    // missing. Millions of others need not be looked up.
+    if (table.name == "result") {
+      SIPPLAB_TRY(empty_table("temp.fresh",
+                              "cell_id INTEGER, instance_id INTEGER, position INTEGER, repetition INTEGER, "
+                              "PRIMARY KEY (cell_id, instance_id, position, repetition)"));
+      SIPPLAB_TRY(run(fmt::format(
+          "INSERT INTO temp.fresh SELECT m_cell_id.new AS cell_id, m_instance_id.new AS instance_id, "
+          "s.position, s.repetition FROM {} WHERE m_cell_id.new <= {} AND s.attempt_id IN (SELECT id FROM "
+          "temp.changed) AND NOT EXISTS (SELECT 1 FROM main.result AS d WHERE d.cell_id = m_cell_id.new AND "
+          "d.instance_id = m_instance_id.new AND d.position = s.position AND d.repetition = s.repetition)",
+          source.from, last_cell_)));
+    }
+    if (table.name == "result" || table.name == "progress") {
+      condition = fmt::format(
+          "(m_cell_id.new > {} OR EXISTS (SELECT 1 FROM temp.fresh WHERE fresh.cell_id = m_cell_id.new AND "
+          "fresh.instance_id = m_instance_id.new AND fresh.position = s.position AND "
+          "fresh.repetition = s.repetition))",
+          last_cell_);
+    }
+    if (table.name == "cell_summary") {
+      condition = fmt::format(
+          "NOT EXISTS (SELECT 1 FROM main.cell AS d WHERE (d.case_id, d.run_id) = (m_case_id.new, "
+          "m_run_id.new) "
+          "AND d.id <= {})",
+          last_cell_);
+    }
     const std::string sql = fmt::format(
         "INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING", table.name,
         columns, expressions, source.from, condition, table.has_key ? " ORDER BY s.id" : "");
@@ -191,8 +225,7 @@ class Merge {
   /// Which key a row of the source has here.
   Result<Done> map_keys(const TableShape& table, const Source& source) {
     const std::string map = fmt::format("temp.\"key_{}\"", table.name);
-    SIPPLAB_TRY(connection_.execute(
-        fmt::format("CREATE TABLE {} (old INTEGER PRIMARY KEY, new INTEGER NOT NULL)", map), kMerging));
+    SIPPLAB_TRY(empty_table(map, "old INTEGER PRIMARY KEY, new INTEGER NOT NULL"));
     for (const auto& key : table.unique) {
       std::string same;
       for (const std::string& column : key) {
@@ -215,7 +248,8 @@ class Merge {
         "first_parent_count = max(commit_.first_parent_count, s.first_parent_count) "
         "FROM shard.commit_ AS s WHERE s.hash = commit_.hash AND (s.ancestor_count > commit_.ancestor_count "
         "OR s.first_parent_count > commit_.first_parent_count)",
-        "UPDATE main.run SET status = s.status, ended_utc = s.ended_utc FROM shard.run AS s "
+        "UPDATE main.run SET status = s.status, "
+        "ended_utc = max(ifnull(run.ended_utc, s.ended_utc), s.ended_utc) FROM shard.run AS s "
         "WHERE s.uuid = run.uuid AND s.status <> run.status AND (s.status = 'finished' OR run.status = "
         "'running')",
         "UPDATE main.run SET excluded_reason = s.excluded_reason, excluded_utc = s.excluded_utc, "
@@ -251,6 +285,42 @@ class Merge {
     return Done{};
   }
 
+  /// Runs and cells that were here and got results: what is said of them together.
+  Result<Done> settle() {
+    constexpr const char* kUpdates[] = {
+        "UPDATE main.attempt SET ended_utc = s.ended_utc, status = s.status, cpu_time_ns = s.cpu_time_ns, "
+        "peak_memory_bytes = s.peak_memory_bytes FROM shard.attempt AS s "
+        "WHERE s.uuid = attempt.uuid AND s.ended_utc >= attempt.ended_utc AND s.id IN (SELECT id FROM "
+        "temp.changed)",
+        "UPDATE main.cell SET result_count = cell.result_count + n, finished_utc = max(cell.finished_utc, "
+        "s.finished_utc) "
+        "FROM (SELECT cell_id, count(*) AS n FROM temp.fresh GROUP BY cell_id) AS more, "
+        "temp.key_cell AS m JOIN shard.cell AS s ON s.id = m.old WHERE more.cell_id = cell.id AND m.new = "
+        "cell.id",
+        // Made again by summarise_cells(): reading a cell for each of a thousand files would take long.
+        "DELETE FROM main.cell_summary WHERE (case_id, run_id) IN "
+        "(SELECT case_id, run_id FROM main.cell WHERE id IN (SELECT cell_id FROM temp.fresh))",
+        "UPDATE main.run SET started_utc = min(run.started_utc, s.started_utc), "
+        "ended_utc = max(ifnull(run.ended_utc, s.ended_utc), ifnull(s.ended_utc, run.ended_utc)) "
+        "FROM shard.run AS s WHERE s.uuid = run.uuid AND s.id IN (SELECT run_id FROM temp.changed)",
+    };
+    for (const char* sql : kUpdates) SIPPLAB_TRY(connection_.execute(sql, kMerging));
+    auto select = SIPPLAB_TRY(Statement::prepare(
+        connection_,
+        "SELECT new FROM temp.key_run WHERE old IN (SELECT run_id FROM temp.changed) ORDER BY new",
+        kMerging));
+    const auto runs = SIPPLAB_TRY(select.collect([](const Statement& row) { return row.integer(0); }));
+    for (const std::int64_t run : runs) SIPPLAB_TRY(settle_sweep(connection_, run));
+    return Done{};
+  }
+
+  /// Of this merge; it may be there from the one before.
+  Result<Done> empty_table(const std::string& name, const char* columns) {
+    SIPPLAB_TRY(
+        connection_.execute(fmt::format("CREATE TABLE IF NOT EXISTS {} ({})", name, columns), kMerging));
+    return connection_.execute("DELETE FROM " + name, kMerging);
+  }
+
   Result<Done> run(const std::string& sql) {
     auto statement = SIPPLAB_TRY(Statement::prepare(connection_, sql, kMerging));
     if (sql.find("?1") != std::string::npos) statement.bind(origin_);
@@ -264,17 +334,19 @@ class Merge {
   MergeReport report_;
 };
 
+/// How `source` is opened beside the history: on read-only media without locks, as it was to be read.
 Result<Done> attach(Connection& connection, const fs::path& source) {
-  return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged", source.string());
-}
-
-void detach(Connection& connection, const std::vector<TableShape>& tables) {
-  for (const TableShape& table : tables) {
-    // Nothing depends on it: the next merge begins with maps of its own.
-    static_cast<void>(
-        connection.execute(fmt::format("DROP TABLE IF EXISTS temp.\"key_{}\"", table.name), kMerging));
+  {
+    // Says what is wrong with it, and brings it to this version.
+    const auto readable = SIPPLAB_TRY(Database::open_read_only(source));
+    if (readable.is_immutable()) {
+      return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged",
+                         sqlite::immutable_uri(source.string()));
+    }
   }
-  static_cast<void>(connection.execute("DETACH shard", kMerging));
+  // A file of no folder, and names that SQLite takes for something else.
+  return sqlite::run(connection, "ATTACH ? AS shard", "opening what is merged",
+                     fs::absolute(source).string());
 }
 
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
@@ -294,22 +366,39 @@ std::int64_t MergeReport::rows_of(const std::string& table) const {
   return 0;
 }
 
-Result<MergeReport> merge_into(Database& database, const fs::path& source) {
+namespace {
+
+Result<MergeReport> merge_one(Database& database, const std::vector<TableShape>& tables,
+                              const fs::path& source) {
   std::error_code code;
   if (fs::equivalent(source, database.path(), code)) {
     return Unexpected{Error{ErrorKind::kBadInput,
                             fmt::format("{}: merged into itself, expected another file", source.string())}};
   }
-  {
-    // Says what is wrong with it, and brings it to this version.
-    const auto readable = SIPPLAB_TRY(Database::open_read_only(source));
-  }
   Connection& connection = database.connection();
-  const auto tables = SIPPLAB_TRY(tables_of(connection));
   SIPPLAB_TRY(attach(connection, source));
   auto report = merge_attached(connection, tables, source.string());
-  detach(connection, tables);
+  // A file that stays attached is in the way of the next one.
+  const auto detached = connection.execute("DETACH shard", kMerging);
+  if (report && !detached) return Unexpected{detached.error()};
   return report;
+}
+
+}  // namespace
+
+Result<MergeReport> merge_into(Database& database, const fs::path& source) {
+  Result<MergeReport> report = MergeReport{};
+  SIPPLAB_TRY(merge_files(database, {source}, [&report](const fs::path&, const Result<MergeReport>& merged) {
+    report = merged;
+  }));
+  return report;
+}
+
+Result<Done> merge_files(Database& database, const std::vector<fs::path>& sources,
+                         const std::function<void(const fs::path&, const Result<MergeReport>&)>& merged) {
+  const auto tables = SIPPLAB_TRY(tables_of(database.connection()));
+  for (const fs::path& source : sources) merged(source, merge_one(database, tables, source));
+  return summarise_cells(database.connection());
 }
 
 }  // namespace sipplab::db

@@ -1,4 +1,4 @@
-// One run, one transaction per case.
+// One run, transaction by transaction.
 #include "db/recorder.hpp"
 
 #include <fmt/core.h>
@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "db/identity.hpp"
+#include "db/queries.hpp"
 #include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
@@ -51,53 +52,125 @@ Result<std::optional<std::string>> find_other_command(Database& database, const 
   return std::optional<std::string>{select->text(0)};
 }
 
-Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info) {
+Result<std::optional<EarlierRun>> find_earlier_run(Database& database, const RunInfo& info,
+                                                   const std::optional<std::string>& run) {
+  std::optional<std::string> uuid;
+  if (run) {
+    uuid = SIPPLAB_TRY(resolve_run(database, *run));
+  } else if (!info.uuid.empty()) {
+    uuid = info.uuid;
+  }
   auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
       "SELECT run.uuid, run.started_utc, run.status, run.writer, "
-      "  (SELECT count(*) FROM cell WHERE cell.run_id = run.id) "
-      "FROM run JOIN machine ON machine.id = run.machine_id JOIN build ON build.id = run.build_id "
-      "WHERE run.kind = 'sweep' AND run.suite = ? AND run.options = ? "
-      "  AND run.status <> 'finished' AND run.excluded_reason IS NULL "
-      "  AND run.origin = '' AND machine.fingerprint = ? "
+      "  (SELECT ifnull(sum(result_count), 0) FROM cell WHERE cell.run_id = run.id), "
+      "  EXISTS (SELECT 1 FROM attempt WHERE run_id = run.id AND attempt.shard = ?) "
+      "FROM run JOIN build ON build.id = run.build_id "
+      "WHERE run.kind = 'sweep' AND run.suite = ? AND run.options = ? AND (run.uuid = ? OR ? IS NULL "
+      "  AND run.excluded_reason IS NULL AND run.origin = '') "
       "  AND build.binary_hash = ? AND build.compiler = ? AND build.compiler_version = ? AND build.flags = ? "
       "  AND build.build_type = ? AND build.assertions = ? AND build.sanitizers = ? AND build.dirty = ? "
-      "ORDER BY run.started_utc DESC, run.id DESC",
+      "ORDER BY run.status = 'finished', run.started_utc DESC, run.id DESC LIMIT 1",
       "looking for a run to resume"));
   const BuildInfo& build = info.build;
-  select.bind(info.suite, info.options, fingerprint(info.machine), build.binary_hash, build.compiler,
+  select.bind(info.shard, info.suite, info.options, uuid, uuid, build.binary_hash, build.compiler,
               build.compiler_version, build.flags, build.build_type, build.assertions, build.sanitizers,
               build.dirty);
-  for (;;) {
-    const auto row = SIPPLAB_TRY(select.step());
-    if (!row) return std::optional<ResumableRun>{};
-    const bool running = select.text(2) == name(RunStatus::kRunning);
-    if (running && is_alive(select.text(3))) continue;
-    ResumableRun run;
-    run.uuid = select.text(0);
-    run.started_utc = select.text(1);
-    run.status = running ? RunStatus::kRunning : RunStatus::kAborted;
-    run.finished_cases = static_cast<std::size_t>(select.integer(4));
-    return std::optional<ResumableRun>{run};
+  const auto row = SIPPLAB_TRY(select.step());
+  if (!row && run) {
+    return Unexpected{bad_input(
+        database, fmt::format("run {} is not of this sweep and build, expected the command and the program "
+                              "that began it",
+                              *uuid))};
   }
+  if (!row) return std::optional<EarlierRun>{};
+  EarlierRun earlier;
+  earlier.uuid = select.text(0);
+  earlier.started_utc = select.text(1);
+  for (const RunStatus status : {RunStatus::kRunning, RunStatus::kFinished, RunStatus::kAborted}) {
+    if (select.text(2) == name(status)) earlier.status = status;
+  }
+  const std::string writer = select.text(3);
+  earlier.being_written =
+      earlier.status == RunStatus::kRunning && writer != this_process() && is_alive(writer);
+  earlier.results = select.integer(4);
+  earlier.has_shard = select.integer(5) != 0;
+  return std::optional<EarlierRun>{earlier};
 }
 
-Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::string& run_uuid) {
-  return SIPPLAB_TRY(Statement::prepare(database.connection(),
-                                        "SELECT case_.* FROM run JOIN cell ON cell.run_id = run.id "
-                                        "JOIN case_ ON case_.id = cell.case_id "
-                                        "WHERE run.uuid = ? ORDER BY cell.id",
-                                        "reading finished cases", run_uuid))
-      .collect([](const Statement& row) { return read_case(row, 0); });
+Error run_is_there(const Database& database, const std::string& uuid) {
+  return bad_input(database,
+                   fmt::format("run {} of this sweep is there, expected --resume to go on with it, or "
+                               "--sweep with a name for a repetition",
+                               uuid));
 }
 
-RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t run_id)
-    : database_(std::move(database)), run_uuid_(std::move(run_uuid)), run_id_(run_id) {}
+Result<std::vector<RecordedCase>> recorded_cases(Database& database, const std::string& run_uuid) {
+  auto results = SIPPLAB_TRY(
+      Statement::prepare(database.connection(),
+                         "SELECT position, repetition, status, planning_time_ns, makespan_s, flowtime_s, "
+                         "tries, expansions FROM result WHERE cell_id = ?",
+                         "reading recorded results"));
+  auto cells = SIPPLAB_TRY(Statement::prepare(database.connection(),
+                                              "SELECT cell.id, case_.* FROM run "
+                                              "JOIN cell ON cell.run_id = run.id "
+                                              "JOIN case_ ON case_.id = cell.case_id "
+                                              "WHERE run.uuid = ? ORDER BY cell.id",
+                                              "reading recorded cases", run_uuid));
+  std::vector<RecordedCase> recorded;
+  Result<Done> read = Done{};
+  SIPPLAB_TRY(cells.for_each([&] {
+    RecordedCase& one = recorded.emplace_back(RecordedCase{read_case(cells, 1), {}});
+    results.reset();
+    const auto done = results.bind(cells.integer(0)).for_each([&] {
+      ResultRow& row = one.rows.emplace_back();
+      row.position = results.integer(0);
+      row.repetition = results.integer(1);
+      row.status = static_cast<ResultStatus>(results.integer(2));
+      row.planning_time_ns = results.integer(3);
+      if (!results.is_null(4)) row.makespan_s = results.real(4);
+      if (!results.is_null(5)) row.flowtime_s = results.real(5);
+      row.tries = static_cast<std::uint64_t>(results.integer(6));
+      row.expansions = static_cast<std::uint64_t>(results.integer(7));
+    });
+    if (read && !done) read = done;
+  }));
+  SIPPLAB_TRY(read);
+  return recorded;
+}
+
+RunRecorder::RunRecorder(Database database, std::string run_uuid, std::int64_t run_id,
+                         std::int64_t attempt_id)
+    : database_(std::move(database)),
+      run_uuid_(std::move(run_uuid)),
+      run_id_(run_id),
+      attempt_id_(attempt_id) {}
+
+Result<std::int64_t> RunRecorder::insert_attempt(sqlite::Connection& connection, std::int64_t run_id,
+                                                 const RunInfo& info) {
+  const auto machine = SIPPLAB_TRY(machine_id(connection, info.machine));
+  const AttemptInfo& attempt = info.attempt;
+  // What a killed attempt ended with is what it said last.
+  SIPPLAB_TRY(sqlite::run(connection,
+                          "UPDATE attempt SET status = 'aborted' WHERE run_id = ? AND status = 'running'",
+                          "closing attempts that were killed", run_id));
+  SIPPLAB_TRY(sqlite::run(
+      connection,
+      "INSERT INTO attempt (uuid, run_id, machine_id, shard, started_utc, ended_utc, status, scheduler, job, "
+      "task, restarts, queued_s, cores, memory_limit_bytes, cpu_time_ns, peak_memory_bytes) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?5, 'running', ?6, ?7, ?8, ?9, ?10, ?11, ?12, 0, 0)",
+      "beginning an attempt", new_uuid(), run_id, machine, info.shard, utc_now(), attempt.scheduler,
+      attempt.job, attempt.task, attempt.restarts, attempt.queued_s, attempt.cores,
+      attempt.memory_limit_bytes));
+  const std::int64_t id = connection.last_insert_rowid();
+  SIPPLAB_TRY(settle_sweep(connection, run_id));
+  return id;
+}
 
 Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
   auto transaction = SIPPLAB_TRY(Transaction::begin(database.connection()));
   RunRow run;
-  run.uuid = new_uuid();
+  run.uuid = info.uuid.empty() ? new_uuid() : info.uuid;
   run.kind = "sweep";
   run.suite = info.suite;
   run.started_utc = utc_now();
@@ -107,12 +180,15 @@ Result<RunRecorder> RunRecorder::begin(Database database, const RunInfo& info) {
   run.command_line = info.command_line;
   run.options = info.options;
   run.writer = this_process();
+  run.planned = info.planned;
   const auto id = SIPPLAB_TRY(insert_run(database.connection(), info, run));
+  if (!id) return Unexpected{run_is_there(database, run.uuid)};
+  const auto attempt = SIPPLAB_TRY(insert_attempt(database.connection(), *id, info));
   SIPPLAB_TRY(transaction.commit());
-  return RunRecorder{std::move(database), run.uuid, *id};
+  return RunRecorder{std::move(database), run.uuid, *id, attempt};
 }
 
-Result<RunRecorder> RunRecorder::resume(Database database, const std::string& run_uuid) {
+Result<RunRecorder> RunRecorder::resume(Database database, const std::string& run_uuid, const RunInfo& info) {
   auto transaction = SIPPLAB_TRY(Transaction::begin(database.connection()));
   std::int64_t id = 0;
   {
@@ -124,32 +200,24 @@ Result<RunRecorder> RunRecorder::resume(Database database, const std::string& ru
       return Unexpected{Error{ErrorKind::kNotFound, fmt::format("{}: no run {}, expected one to resume",
                                                                 database.path().string(), run_uuid)}};
     }
-    const std::string status = select.text(1);
     const std::string writer = select.text(2);
-    if (status == name(RunStatus::kFinished) || !select.is_null(3)) {
+    if (!select.is_null(3)) {
       return Unexpected{
-          bad_input(database, fmt::format("run {} is {}, expected one that ended early", run_uuid,
-                                          select.is_null(3) ? "finished" : "excluded"))};
+          bad_input(database, fmt::format("run {} is excluded, expected one that counts", run_uuid))};
     }
-    if (status == name(RunStatus::kRunning) && writer != this_process() && is_alive(writer)) {
+    if (select.text(1) == name(RunStatus::kRunning) && writer != this_process() && is_alive(writer)) {
       return Unexpected{bad_input(
           database, fmt::format("run {} is being written, expected its process to have ended", run_uuid))};
     }
     id = select.integer(0);
   }
-  SIPPLAB_TRY(sqlite::run(database.connection(),
-                          "UPDATE run SET status = 'running', ended_utc = NULL, writer = ? WHERE id = ?",
-                          "taking up the run", this_process(), id));
-  auto finished = SIPPLAB_TRY(finished_cases(database, run_uuid));
+  SIPPLAB_TRY(
+      sqlite::run(database.connection(),
+                  "UPDATE run SET status = 'running', ended_utc = NULL, origin = '', writer = ? WHERE id = ?",
+                  "taking up the run", this_process(), id));
+  const auto attempt = SIPPLAB_TRY(insert_attempt(database.connection(), id, info));
   SIPPLAB_TRY(transaction.commit());
-
-  RunRecorder recorder{std::move(database), run_uuid, id};
-  recorder.finished_ = std::move(finished);
-  return recorder;
-}
-
-bool RunRecorder::is_finished(const CaseInfo& parameters) const {
-  return std::find(finished_.begin(), finished_.end(), parameters) != finished_.end();
+  return RunRecorder{std::move(database), run_uuid, id, attempt};
 }
 
 void RunRecorder::add(const CaseInfo& parameters, const InstanceInfo& instance, const ResultRow& row) {
@@ -159,24 +227,17 @@ void RunRecorder::add(const CaseInfo& parameters, const InstanceInfo& instance, 
   found->second.push_back({instance, row});
 }
 
-void RunRecorder::discard_case(const CaseInfo& parameters) {
-  std::erase_if(buffered_, [&](const BufferedCase& buffered) { return buffered.first == parameters; });
-}
-
-Result<Done> RunRecorder::commit_case(const CaseInfo& parameters) {
-  const auto found = std::find_if(buffered_.begin(), buffered_.end(),
-                                  [&](const BufferedCase& buffered) { return buffered.first == parameters; });
-  const std::vector<BufferedResult> none;
-  SIPPLAB_TRY(write_case(parameters, found == buffered_.end() ? none : found->second));
-  discard_case(parameters);
-  finished_.push_back(parameters);
+Result<Done> RunRecorder::commit(const AttemptUsage& usage) {
+  auto transaction = SIPPLAB_TRY(Transaction::begin(database_.connection()));
+  SIPPLAB_TRY(check_writer());
+  for (const auto& [parameters, results] : buffered_) SIPPLAB_TRY(write_case(parameters, results));
+  SIPPLAB_TRY(write_attempt(RunStatus::kRunning, usage));
+  SIPPLAB_TRY(transaction.commit());
+  discard();
   return Done{};
 }
 
 Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vector<BufferedResult>& results) {
-  if (is_finished(parameters)) {
-    return Unexpected{bad_input(database_, fmt::format("run {} holds this case already", run_uuid_))};
-  }
   const auto is_nan = [](const auto& option) {
     const double* real = std::get_if<double>(&option.second);
     return real != nullptr && std::isnan(*real);
@@ -186,22 +247,22 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
     return Unexpected{bad_input(database_, "NaN in a result, expected a number")};
   }
   auto& connection = database_.connection();
-  auto transaction = SIPPLAB_TRY(Transaction::begin(connection));
-  SIPPLAB_TRY(check_writer());
   const auto case_key = SIPPLAB_TRY(case_id(connection, parameters));
-  SIPPLAB_TRY(sqlite::run(
+  auto upsert = SIPPLAB_TRY(Statement::prepare(
       connection,
-      "INSERT INTO cell (run_id, case_id, finished_utc, result_count, machine_load) VALUES (?, ?, ?, ?, ?)",
-      "writing a finished case", run_id_, case_key, utc_now(), static_cast<std::int64_t>(results.size()),
+      "INSERT INTO cell (run_id, case_id, finished_utc, result_count, machine_load) VALUES (?, ?, ?, ?, ?) "
+      "ON CONFLICT (run_id, case_id) DO UPDATE SET finished_utc = excluded.finished_utc, "
+      "result_count = result_count + excluded.result_count, machine_load = excluded.machine_load RETURNING "
+      "id",
+      "writing a case", run_id_, case_key, utc_now(), static_cast<std::int64_t>(results.size()),
       machine_load()));
-  const std::int64_t cell_id = connection.last_insert_rowid();
+  SIPPLAB_TRY(upsert.step());
+  const std::int64_t cell_id = upsert.integer(0);
+  SIPPLAB_TRY(upsert.run());
   SIPPLAB_TRY(write_results(cell_id, results));
   SIPPLAB_TRY(write_bounds(case_key, results));
   auto summariser = SIPPLAB_TRY(CellSummariser::prepare(connection));
-  std::vector<const ResultRow*> rows;
-  for (const BufferedResult& result : results) rows.push_back(&result.row);
-  SIPPLAB_TRY(summariser.summarise(cell_id, medians_of(rows)));
-  return transaction.commit();
+  return summariser.summarise(cell_id);
 }
 
 Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results) {
@@ -210,8 +271,8 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
       "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
       "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
       "peak_memory_bytes, "
-      "limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns, attempt_id) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the results of a case"));
   auto keys = SIPPLAB_TRY(InstanceKeys::prepare(database_.connection()));
   for (const auto& [instance, row] : results) {
@@ -224,7 +285,7 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                           to_count(row.expansions), to_count(row.generations), plan_hash, row.valid,
                           row.violations, row.min_clearance_cells, row.peak_memory_bytes,
                           null_if_empty(row.limit), null_if_empty(row.message), null_if_empty(row.made_by),
-                          row.ssi_kept_s, row.instructions, row.cpu_time_ns)
+                          row.ssi_kept_s, row.instructions, row.cpu_time_ns, attempt_id_)
                     .run());
     if (row.progress.empty()) continue;
     SIPPLAB_TRY(write_progress(cell_id, instance_key, row));
@@ -284,14 +345,24 @@ Result<Done> RunRecorder::check_writer() {
   return Done{};
 }
 
-Result<Done> RunRecorder::finish(RunStatus status) {
+Result<Done> RunRecorder::write_attempt(RunStatus status, const AttemptUsage& usage) {
+  return sqlite::run(database_.connection(),
+                     "UPDATE attempt SET status = ?, ended_utc = ?, cpu_time_ns = ?, peak_memory_bytes = ? "
+                     "WHERE id = ?",
+                     "writing what an attempt took", std::string{name(status)}, utc_now(), usage.cpu_time_ns,
+                     usage.peak_memory_bytes, attempt_id_);
+}
+
+Result<Done> RunRecorder::finish(RunStatus status, const AttemptUsage& usage) {
   if (status == RunStatus::kRunning) {
     return Unexpected{bad_input(database_, "a run cannot end as running, expected finished or aborted")};
   }
   auto transaction = SIPPLAB_TRY(Transaction::begin(database_.connection()));
   SIPPLAB_TRY(check_writer());
+  SIPPLAB_TRY(write_attempt(status, usage));
   SIPPLAB_TRY(sqlite::run(database_.connection(), "UPDATE run SET status = ?, ended_utc = ? WHERE id = ?",
                           "closing the run", std::string{name(status)}, utc_now(), run_id_));
+  SIPPLAB_TRY(settle_sweep(database_.connection(), run_id_));
   buffered_.clear();
   return transaction.commit();
 }

@@ -1,8 +1,7 @@
-// Records one run, case by case. A case lands in one transaction, so a killed run
-// leaves its finished cases and nothing of the others.
+// Records one run, planning by planning, several in one transaction: a killed run leaves what was
+// committed and loses the rest.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,12 +14,21 @@
 
 namespace sipplab::db {
 
-/// A run that ended early and can be taken up again.
-struct ResumableRun {
+/// A run of the same sweep that is there already.
+struct EarlierRun {
   std::string uuid;
   std::string started_utc;
   RunStatus status = RunStatus::kRunning;
-  std::size_t finished_cases = 0;
+  bool being_written = false;  ///< by another process of this machine that is alive
+  bool has_shard = false;      ///< an attempt of the same shard is there
+  std::int64_t results = 0;
+};
+
+/// The plannings of one case that a run holds: of each row what sums of a case are made of, and which
+/// planning it is.
+struct RecordedCase {
+  CaseInfo parameters;
+  std::vector<ResultRow> rows;
 };
 
 /// UUID of the newest run that counts in which another command than that of `digest` planned as `planner`
@@ -28,51 +36,54 @@ struct ResumableRun {
 Result<std::optional<std::string>> find_other_command(Database& database, const std::string& planner,
                                                       const std::string& digest);
 
-/// The newest run that `info` could continue: same suite, options, build and
-/// machine, not finished, not excluded, and not being written by a live process.
-Result<std::optional<ResumableRun>> find_resumable_run(Database& database, const RunInfo& info);
+/// The run that `info` continues: same suite, options and build; the one of info.uuid, where that is empty
+/// one that was recorded here and is not excluded, the newest that is not finished, else the newest. Where
+/// `run` is given (as resolve_run takes it), that one, wherever it was recorded; an error where it is of
+/// another suite, with other options or of another build.
+Result<std::optional<EarlierRun>> find_earlier_run(Database& database, const RunInfo& info,
+                                                   const std::optional<std::string>& run = {});
 
-/// The cases that a run has finished, in the order in which they were.
-Result<std::vector<CaseInfo>> finished_cases(Database& database, const std::string& run_uuid);
+/// What to say where a run of that id is there and nobody asked to resume it.
+Error run_is_there(const Database& database, const std::string& uuid);
+
+/// What a run holds, case by case in the order in which they were begun.
+Result<std::vector<RecordedCase>> recorded_cases(Database& database, const std::string& run_uuid);
 
 /// Usage:
 ///
 ///     auto recorder = RunRecorder::begin(std::move(database), info);
-///     for each case:
-///       if (recorder->is_finished(the_case)) continue;
-///       for each instance: recorder->add(the_case, instance, row);
-///       recorder->commit_case(the_case);
+///     for each case, for each instance that is not recorded:
+///       recorder->add(the_case, instance, row);
+///       once in a while: recorder->commit();
 ///     recorder->finish(RunStatus::kFinished);
 ///
 /// Not for use by two threads at once; other processes may write to the same file.
 class RunRecorder {
  public:
-  /// Writes the row of a new run, with a fresh UUID and the status "running".
+  /// Writes the row of a new run with the status "running", and of its first attempt. An error where the
+  /// file holds a run of info.uuid.
   static Result<RunRecorder> begin(Database database, const RunInfo& info);
 
-  /// Takes up a run under its own UUID. From then on a process that still wrote to
-  /// it gets an error, so that a run has one writer.
-  static Result<RunRecorder> resume(Database database, const std::string& run_uuid);
+  /// Takes up a run under its own UUID, as a new attempt. From then on a process that still wrote to
+  /// it gets an error, so that a run has one writer. An error where the run is excluded, or its writer is
+  /// another process of this machine that is alive.
+  static Result<RunRecorder> resume(Database database, const std::string& run_uuid, const RunInfo& info);
 
   const std::string& run_uuid() const { return run_uuid_; }
-
-  /// Whether the run holds this case already.
-  bool is_finished(const CaseInfo& parameters) const;
 
   /// Buffers one result; nothing is written yet. Cases may interleave.
   void add(const CaseInfo& parameters, const InstanceInfo& instance, const ResultRow& row);
 
-  /// Writes the buffered results of a case in one transaction and marks it as
-  /// finished (a case without results too). After an error nothing of the case is
-  /// in the file, its results are still buffered, and the call may be repeated.
-  /// Two results of one instance, position and repetition are an error.
-  Result<Done> commit_case(const CaseInfo& parameters);
+  /// Writes all that is buffered in one transaction, with the summaries of its cases and what the attempt has
+  /// taken so far. After an error nothing of it is in the file, the results are still buffered, and
+  /// the call may be repeated. Two results of one instance, position and repetition are an error.
+  Result<Done> commit(const AttemptUsage& usage = {});
 
-  /// Forgets the buffered results of a case.
-  void discard_case(const CaseInfo& parameters);
+  /// Forgets what is buffered.
+  void discard() { buffered_.clear(); }
 
   /// Closes the run. Results that were buffered and not committed are dropped.
-  Result<Done> finish(RunStatus status);
+  Result<Done> finish(RunStatus status, const AttemptUsage& usage = {});
 
  private:
   struct BufferedResult {
@@ -81,19 +92,23 @@ class RunRecorder {
   };
   using BufferedCase = std::pair<CaseInfo, std::vector<BufferedResult>>;
 
-  RunRecorder(Database database, std::string run_uuid, std::int64_t run_id);
+  RunRecorder(Database database, std::string run_uuid, std::int64_t run_id, std::int64_t attempt_id);
 
+  /// The row of a new attempt.
+  static Result<std::int64_t> insert_attempt(sqlite::Connection& connection, std::int64_t run_id,
+                                             const RunInfo& info);
   Result<Done> write_case(const CaseInfo& parameters, const std::vector<BufferedResult>& results);
   Result<Done> write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results);
   Result<Done> write_bounds(std::int64_t case_id, const std::vector<BufferedResult>& results);
   Result<Done> write_progress(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
+  Result<Done> write_attempt(RunStatus status, const AttemptUsage& usage);
   /// An error when another process has taken the run over.
   Result<Done> check_writer();
 
   Database database_;
   std::string run_uuid_;
   std::int64_t run_id_ = 0;
-  std::vector<CaseInfo> finished_;
+  std::int64_t attempt_id_ = 0;
   std::vector<BufferedCase> buffered_;
 };
 

@@ -66,10 +66,30 @@ struct RunOrigin {
   BuildInfo build;
 };
 
+/// Under what one process writes to a sweep.
+struct AttemptInfo {
+  std::string scheduler;           ///< "slurm", "sge", "pbs", "htcondor", "parallel"; empty for none
+  std::string job;                 ///< as the scheduler calls it
+  std::string task;                ///< of the job's array, as the scheduler counts
+  std::int64_t restarts = 0;       ///< times that the scheduler started this task before
+  std::optional<double> queued_s;  ///< since it was submitted
+  double cores = 0;                ///< that the process may use, by affinity and cgroup; 0: not known
+  std::optional<std::int64_t> memory_limit_bytes;  ///< of its cgroup; none: no limit
+};
+
+/// What an attempt has taken so far, children included.
+struct AttemptUsage {
+  std::int64_t cpu_time_ns = 0;
+  std::int64_t peak_memory_bytes = 0;
+};
+
 /// One start of a sweep.
 struct RunInfo : RunOrigin {
+  std::string uuid;  ///< the same for all parts of a sweep; empty: a fresh one
   std::string suite;
   std::string shard;  ///< "2/8": the second of eight parts of the suite; empty for all of it
+  std::optional<std::int64_t> planned;  ///< plannings of the whole sweep, all parts together
+  AttemptInfo attempt;
   std::string command_line;
   /// What must agree, in addition to suite, build and machine, for a run to be resumed:
   /// a canonical text of the options that change results, such as

@@ -139,16 +139,49 @@ Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, c
   SIPPLAB_TRY(sqlite::run(
       connection,
       "INSERT INTO run (uuid, kind, suite, started_utc, outcome, commit_id, machine_id, build_id, branch, "
-      "command_line, options, seed, time_limit_s, writer, shard, status, ended_utc) "
-      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, "
+      "command_line, options, seed, time_limit_s, writer, shard, planned, status, ended_utc) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?17, "
       "iif(?16 IS NULL, 'running', 'finished'), iif(?16 IS NULL, NULL, ifnull("
       "strftime('%Y-%m-%dT%H:%M:%fZ', ?4, printf('+%.3f seconds', ?16 / 1e9)), ?4))) "
       "ON CONFLICT (uuid) DO NOTHING",
       "listing a run", run.uuid, run.kind, run.suite, run.started_utc, run.outcome, commit, machine, build,
       origin.branch, run.command_line, run.options, to_bits(run.seed), run.time_limit_s, run.writer,
-      run.shard, run.wall_time_ns));
+      run.shard, run.wall_time_ns, run.planned));
   if (connection.changes() == 0) return std::optional<std::int64_t>{};
   return std::optional<std::int64_t>{connection.last_insert_rowid()};
+}
+
+Result<Done> settle_sweep(sqlite::Connection& connection, std::int64_t run_id) {
+  constexpr const char* kSettling = "settling a sweep";
+  // Parts that came together: finished is what has all of its plannings.
+  SIPPLAB_TRY(
+      sqlite::run(connection,
+                  "UPDATE run SET shard = '', status = CASE WHEN status = 'running' AND origin = '' "
+                  "THEN status WHEN planned <= (SELECT sum(result_count) FROM cell WHERE run_id = run.id) "
+                  "THEN 'finished' ELSE 'aborted' END "
+                  "WHERE id = ? AND planned IS NOT NULL AND (SELECT count(DISTINCT shard) FROM attempt "
+                  "WHERE run_id = run.id) > 1",
+                  kSettling, run_id));
+  // The fingerprint is of this run alone.
+  SIPPLAB_TRY(sqlite::run(
+      connection,
+      "WITH used AS (SELECT DISTINCT machine.* FROM attempt JOIN machine ON machine.id = machine_id "
+      "WHERE run_id = ?1) "
+      "INSERT INTO machine (fingerprint, host, cpu_model, cores, memory_bytes, kernel) "
+      "SELECT substr(replace(uuid, '-', ''), 1, 16), "
+      "(SELECT group_concat(host, ', ') FROM (SELECT DISTINCT host FROM used ORDER BY host)), "
+      "(SELECT count(*) FROM used) || ' machines: ' || "
+      "(SELECT group_concat(cpu_model, ', ') FROM (SELECT DISTINCT cpu_model FROM used ORDER BY cpu_model)), "
+      "(SELECT max(cores) FROM used), (SELECT max(memory_bytes) FROM used), "
+      "(SELECT group_concat(kernel, ', ') FROM (SELECT DISTINCT kernel FROM used ORDER BY kernel)) "
+      "FROM run WHERE id = ?1 AND (SELECT count(*) FROM used) > 1 "
+      "ON CONFLICT (fingerprint) DO UPDATE SET host = excluded.host, cpu_model = excluded.cpu_model, "
+      "cores = excluded.cores, memory_bytes = excluded.memory_bytes, kernel = excluded.kernel",
+      kSettling, run_id));
+  return sqlite::run(connection,
+                     "UPDATE run SET machine_id = machine.id FROM machine WHERE run.id = ? AND "
+                     "machine.fingerprint = substr(replace(run.uuid, '-', ''), 1, 16)",
+                     kSettling, run_id);
 }
 
 Result<std::set<std::string>> case_columns(sqlite::Connection& connection) {

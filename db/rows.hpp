@@ -57,6 +57,7 @@ struct RunRow {
   std::string command_line;
   std::string options;
   std::string writer;
+  std::optional<std::int64_t> planned;
 };
 
 /// The row of a run that is over, of a kind whose struct has the same names.
@@ -77,6 +78,11 @@ RunRow finished_run(const char* kind, const std::string& suite, const std::strin
 /// be called within a write transaction, as the rows of its kind are.
 Result<std::optional<std::int64_t>> insert_run(sqlite::Connection& connection, const RunOrigin& origin,
                                                const RunRow& run);
+
+/// What follows from the attempts and results of a sweep: the shard, of several none; whether it is finished,
+/// where parts of it came together; the machine, which for several is a row of its own, so that times of it
+/// are compared with no others. To be called within a write transaction.
+Result<Done> settle_sweep(sqlite::Connection& connection, std::int64_t run_id);
 
 /// The same for instances, of which a case has hundreds: the statements are prepared
 /// once, and an instance that is known costs no write.

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 
+#include "db/rows.hpp"
 #include "db/sqlite/transaction.hpp"
 
 namespace sipplab::db {
@@ -20,6 +21,7 @@ constexpr const char* kColumns =
 constexpr const char* kMedians =
     "median_planning_time_s, median_makespan_s, median_flowtime_s, median_solved_time_s, "
     "median_time_to_solve_s";
+constexpr const char* kSummarising = "summarising a case";
 constexpr std::array kRealColumns{"mean_planning_time_s",   "max_planning_time_s",   "par2_time_s",
                                   "mean_makespan_s",        "mean_flowtime_s",       "mean_tries",
                                   "mean_expansions",        "mean_generations",      "mean_solved_time_s",
@@ -47,7 +49,20 @@ std::optional<double> median(std::vector<double> values) {
 
 }  // namespace
 
-CellMedians medians_of(const std::vector<const ResultRow*>& results) {
+Result<CellSummariser> CellSummariser::prepare(sqlite::Connection& connection) {
+  auto select = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection, "SELECT planning_time_ns, status, makespan_s, flowtime_s FROM result WHERE cell_id = ?",
+      kSummarising));
+  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
+      connection,
+      fmt::format("INSERT OR REPLACE INTO cell_summary ({0}, {1}) SELECT {0}, ?2, ?3, ?4, ?5, ?6 "
+                  "FROM v_recomputed_cells WHERE cell_id = ?1",
+                  kColumns, kMedians),
+      kSummarising));
+  return CellSummariser{std::move(select), std::move(insert)};
+}
+
+Result<Done> CellSummariser::summarise(std::int64_t cell_id) {
   constexpr double kNanosecondsPerSecond = 1e9;
   const auto in_seconds = [](std::optional<double> time_ns) {
     if (time_ns) *time_ns /= kNanosecondsPerSecond;
@@ -57,34 +72,33 @@ CellMedians medians_of(const std::vector<const ResultRow*>& results) {
   std::vector<double> solved_times_ns;
   std::vector<double> makespans_s;
   std::vector<double> flowtimes_s;
-  for (const ResultRow* row : results) {
-    times_ns.push_back(static_cast<double>(row->planning_time_ns));
-    if (row->status != ResultStatus::kSolved) continue;
-    solved_times_ns.push_back(static_cast<double>(row->planning_time_ns));
-    if (row->makespan_s) makespans_s.push_back(*row->makespan_s);
-    if (row->flowtime_s) flowtimes_s.push_back(*row->flowtime_s);
-  }
-  return {in_seconds(median(std::move(times_ns))), median(std::move(makespans_s)),
-          median(std::move(flowtimes_s)), in_seconds(median(solved_times_ns)),
-          in_seconds(median(solved_times_ns, results.size()))};
-}
-
-Result<CellSummariser> CellSummariser::prepare(sqlite::Connection& connection) {
-  auto insert = SIPPLAB_TRY(sqlite::Statement::prepare(
-      connection,
-      fmt::format(
-          "INSERT INTO cell_summary ({0}, {1}) SELECT {0}, ?2, ?3, ?4, ?5, ?6 FROM v_recomputed_cells "
-          "WHERE cell_id = ?1",
-          kColumns, kMedians),
-      "summarising a finished case"));
-  return CellSummariser{std::move(insert)};
-}
-
-Result<Done> CellSummariser::summarise(std::int64_t cell_id, const CellMedians& medians) {
+  select_.reset();
+  SIPPLAB_TRY(select_.bind(cell_id).for_each([&] {
+    times_ns.push_back(select_.real(0));
+    if (select_.integer(1) != static_cast<int>(ResultStatus::kSolved)) return;
+    solved_times_ns.push_back(select_.real(0));
+    if (!select_.is_null(2)) makespans_s.push_back(select_.real(2));
+    if (!select_.is_null(3)) flowtimes_s.push_back(select_.real(3));
+  }));
+  const std::size_t results = times_ns.size();
   return insert_
-      .bind(cell_id, medians.planning_time_s, medians.makespan_s, medians.flowtime_s, medians.solved_time_s,
-            medians.time_to_solve_s)
+      .bind(cell_id, in_seconds(median(std::move(times_ns))), median(std::move(makespans_s)),
+            median(std::move(flowtimes_s)), in_seconds(median(solved_times_ns)),
+            in_seconds(median(solved_times_ns, results)))
       .run();
+}
+
+Result<std::vector<CaseTime>> case_times(Database& database) {
+  return SIPPLAB_TRY(
+             sqlite::Statement::prepare(
+                 database.connection(),
+                 "SELECT sum(results * mean_planning_time_s) / sum(results), case_.* FROM cell_summary "
+                 "JOIN case_ ON case_.id = case_id JOIN run ON run.id = run_id "
+                 "WHERE results > 0 AND run.excluded_reason IS NULL GROUP BY case_.id",
+                 "reading what cases take"))
+      .collect([](const sqlite::Statement& row) {
+        return CaseTime{read_case(row, 1), row.real(0)};
+      });
 }
 
 Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection) {
@@ -107,6 +121,20 @@ Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection) {
       "SELECT count(*) FROM (SELECT * FROM v_recomputed_instances EXCEPT SELECT * FROM instance_summary)",
       "comparing summaries with results"));
   return cells + instances;
+}
+
+Result<Done> summarise_cells(sqlite::Connection& connection) {
+  auto select = SIPPLAB_TRY(
+      sqlite::Statement::prepare(connection,
+                                 "SELECT cell.id FROM cell LEFT JOIN cell_summary USING (case_id, run_id) "
+                                 "WHERE cell_summary.run_id IS NULL",
+                                 kSummarising));
+  const auto cells = SIPPLAB_TRY(select.collect([](const sqlite::Statement& row) { return row.integer(0); }));
+  if (cells.empty()) return Done{};
+  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
+  auto summariser = SIPPLAB_TRY(CellSummariser::prepare(connection));
+  for (const std::int64_t cell : cells) SIPPLAB_TRY(summariser.summarise(cell));
+  return transaction.commit();
 }
 
 Result<Done> rebuild_summaries(sqlite::Connection& connection) {

@@ -1,8 +1,10 @@
 // sipplab bench: a density sweep into the history.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,11 +13,13 @@
 #include <vector>
 
 #include "bench/cli/bench_arguments.hpp"
+#include "bench/cli/bench_parts.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/sweep/attempt.hpp"
 #include "bench/sweep/benchmark_flags.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
@@ -61,20 +65,14 @@ bench::SweepRequest request_of(const BenchArguments& arguments) {
   return request;
 }
 
-/// Leaves the cases for which `keep` says so.
-template <class Keep>
-void keep_cases(bench::ExpandedSweep& sweep, Keep keep) {
-  std::vector<bench::NamedCase> kept;
-  for (bench::NamedCase& named : sweep.cases) {
-    if (keep(named)) kept.push_back(std::move(named));
-  }
-  sweep.cases = std::move(kept);
+/// Name of the benchmark as Google Benchmark completes it.
+std::string full_name(const bench::NamedCase& named, std::size_t iterations) {
+  return fmt::format("{}/iterations:{}/manual_time", named.name, iterations);
 }
 
-/// Name of the benchmark as Google Benchmark completes it.
-std::string full_name(const bench::ExpandedSweep& sweep, const bench::NamedCase& named) {
-  return fmt::format("{}/iterations:{}/manual_time", named.name,
-                     sweep.sets[named.parameters.set].instances.size());
+bool is_uuid(const std::string& text) {
+  constexpr std::size_t kLength = 36;
+  return text.size() == kLength && text.find_first_not_of("0123456789abcdef-") == std::string::npos;
 }
 
 /// What must agree for a run to be taken up again: every case by name, and what its
@@ -84,10 +82,20 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
   info.suite = arguments.folders.empty() ? arguments.suite : "instances";
   info.shard = arguments.shard.value_or("");
   info.command_line = arguments.invocation.command_line;
+  if (arguments.task) {  // as the sweep was planned
+    info.command_line = "sipplab";
+    for (const std::string& argument : arguments_without(
+             arguments.invocation.arguments, {"--shard", "--sweep", "--task-of", "--db", "--resume"})) {
+      info.command_line += " " + argument;
+    }
+  }
   std::string cases;
   for (const bench::NamedCase& named : sweep.cases) {
-    cases += fmt::format("{} {} {}\n", full_name(sweep, named), named.parameters.radius_cells,
+    cases += fmt::format("{} {} {}\n", named.name, named.parameters.radius_cells,
                          named.parameters.speed_cells_per_s);
+    for (const auto& prepared : sweep.sets[named.parameters.set].instances) {
+      cases += prepared.row.content_hash + prepared.broken;
+    }
   }
   const PlannerOptions& options = sweep.cases.front().parameters.options;
   const auto same_limit = [&options](const bench::NamedCase& named) {
@@ -105,7 +113,16 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
                     command->memory_limit_mib, command->rounding);
   }
   info.seed = arguments.seed;
+  info.planned = static_cast<std::int64_t>(bench::planning_count(sweep, arguments.repetitions));
   static_cast<db::RunOrigin&>(info) = bench::run_origin();
+  info.attempt = bench::attempt_info();
+  // Parts on many machines agree on the id without having met.
+  if (is_uuid(arguments.sweep)) {
+    info.uuid = arguments.sweep;
+  } else if (arguments.shard || !arguments.sweep.empty()) {
+    info.uuid = bench::text_uuid(
+        fmt::format("{}\n{}\n{}\n{}", info.suite, info.options, info.build.binary_hash, arguments.sweep));
+  }
   return info;
 }
 
@@ -116,32 +133,18 @@ std::string next_commands(const BenchArguments& arguments, const std::string& ru
                      run.substr(0, kShortUuid));
 }
 
-struct Resumption {
-  std::optional<std::string> run;
-  std::vector<db::CaseInfo> finished;
-};
-
-db::Result<Resumption> find_resumption(db::Database& database, const db::RunInfo& info) {
-  Resumption resumption;
-  const auto found = SIPPLAB_TRY(db::find_resumable_run(database, info));
-  if (!found) return resumption;
-  resumption.run = found->uuid;
-  resumption.finished = SIPPLAB_TRY(db::finished_cases(database, *resumption.run));
-  return resumption;
-}
-
 int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, bench::Sweep& sweep,
-           const std::string& suite, const std::string& database) {
+           const std::string& suite, const std::string& database, const std::string& run) {
   const auto& entries = sweep.entries();
   const bool finished =
-      std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished; });
+      std::all_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.finished(); });
   if (arguments.json) {
-    print(bench::result_json(entries, suite, sweep.run_uuid(), database, finished));
+    print(bench::result_json(entries, suite, run, database, finished));
   } else if (flags.format.empty() && !arguments.quiet) {
     print(bench::result_table(entries));
   }
   if (sweep.error()) return fail(*sweep.error());
-  diagnose(fmt::format("recorded in {} as run {}", database, sweep.run_uuid()));
+  diagnose(fmt::format("recorded in {} as run {}", database, run));
   if (!sweep.first_invalid().empty()) {
     return fail(kInternalError, "sipplab: internal error: invalid plan: " + sweep.first_invalid());
   }
@@ -149,8 +152,9 @@ int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, 
     return fail(kSignalExitBase + bench::interrupted_by(),
                 "stopped before its end; the same command with --resume does the rest");
   }
-  if (arguments.when_finished) return arguments.when_finished(database, sweep.run_uuid());
-  diagnose(next_commands(arguments, sweep.run_uuid()));
+  // What becomes of a whole is no question to a part.
+  if (arguments.when_finished && !arguments.shard) return arguments.when_finished(database, run);
+  if (!arguments.task) diagnose(next_commands(arguments, run));
   return kSuccess;
 }
 
@@ -176,26 +180,14 @@ void say_notes(const std::vector<std::string>& notes) {
 }
 
 /// Opens the history, runs the cases that are to be run, and reports.
-int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags,
+int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, const db::RunInfo& info,
               bench::ExpandedSweep cases) {
   const std::filesystem::path path = db::database_path(arguments.database);
-  const db::RunInfo info = run_info(arguments, cases);
-  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path));
-
+  // A part is written by one process, and carried about.
+  const auto journal = arguments.shard ? db::Journal::kRollback : db::Journal::kWriteAhead;
+  auto database = SIPPLAB_TRY_OR(fail, db::Database::open(path, journal));
   if (const auto line = find_taken_name(database, arguments)) return fail(kBadUsage, "sipplab: " + *line);
-
-  Resumption resumption;
-  if (arguments.resume) {
-    resumption = SIPPLAB_TRY_OR(fail, find_resumption(database, info));
-    const std::size_t all = cases.cases.size();
-    keep_cases(cases, [&resumption](const bench::NamedCase& named) {
-      const auto& finished = resumption.finished;
-      return std::find(finished.begin(), finished.end(), bench::case_row(named.parameters)) == finished.end();
-    });
-    diagnose(resumption.run ? fmt::format("resuming run {}: {} of {} cases are there", *resumption.run,
-                                          all - cases.cases.size(), all)
-                            : "no unfinished run of this command, build and machine: starting a new one");
-  }
+  const auto earlier = SIPPLAB_TRY_OR(fail, take_up(arguments, database, info, cases));
   say_notes(cases.notes);
   const std::string reason = bench::unfit_for_timing();
   if (!reason.empty()) diagnose("WARNING: " + reason + " in this build: its times are not worth comparing");
@@ -204,26 +196,31 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   if (const auto spec = command_of(arguments)) {
     command = SIPPLAB_TRY_OR(bad_usage, bench::CommandPlanner::make(*spec));
   }
-  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, resumption.run),
+  const bool nothing_left = count_left(cases) == 0;
+  const std::optional<std::string> run = earlier ? std::optional(earlier->uuid) : std::nullopt;
+  bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, run),
                      arguments.repetitions, stderr_is_terminal(), std::move(command));
   sweep.register_benchmarks(flags.format == "csv");
-  if (sweep.entries().empty()) {
-    sweep.begin();
+  if (nothing_left) {
+    if (earlier->status != db::RunStatus::kFinished) sweep.begin();  // killed after its last planning
   } else {
-    bench::catch_interrupts();
+    bench::catch_warnings();
     benchmark::BenchmarkReporter* shown =
         flags.format.empty() ? nullptr : benchmark::CreateDefaultDisplayReporter();
     bench::RecordingReporter reporter(sweep, shown);
     benchmark::RunSpecifiedBenchmarks(&reporter, std::string("."));
   }
   sweep.end();
-  return report(arguments, flags, sweep, info.suite, path.string());
+  return report(arguments, flags, sweep, info.suite, path.string(),
+                sweep.run_uuid().empty() ? run.value_or("") : sweep.run_uuid());
 }
 
 }  // namespace
 
 int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_flags) {
   BenchArguments arguments = given;
+  // Where the process that keeps its exit code is killed, a task does not stay behind.
+  if (arguments.task) prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (arguments.repetitions > 1) {
     benchmark_flags.push_back(fmt::format("--benchmark_repetitions={}", arguments.repetitions));
   }
@@ -234,28 +231,27 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   }
 
   bench::ExpandedSweep cases = SIPPLAB_TRY_OR(bad_usage, bench::expand(request_of(arguments)));
+  const auto iterations = [&cases](const bench::NamedCase& named) {
+    return cases.sets[named.parameters.set].instances.size();
+  };
   std::vector<std::string> names;
-  for (const bench::NamedCase& named : cases.cases) names.push_back(full_name(cases, named));
+  for (const bench::NamedCase& named : cases.cases) names.push_back(full_name(named, iterations(named)));
   const std::vector<bool> matches = SIPPLAB_TRY_OR(bad_usage, bench::filter_matches(flags.filter, names));
   std::size_t position = 0;
-  keep_cases(cases, [&matches, &position](const bench::NamedCase&) { return matches[position++]; });
+  std::erase_if(cases.cases, [&](const bench::NamedCase&) { return !matches[position++]; });
   if (cases.cases.empty()) {
     return bad_usage("--benchmark_filter: no case matches " + in_quotes(flags.filter));
   }
-  if (arguments.shard) {
-    // Neighbouring cases cost alike: dealing them out in turn gives shards of like length.
-    const bench::Shard shard = bench::parse_shard(*arguments.shard).value_or(bench::Shard{});
-    position = 0;
-    keep_cases(cases, [&shard, &position](const bench::NamedCase&) { return shard.holds(position++); });
-    if (cases.cases.empty()) {
-      return bad_usage("--shard " + *arguments.shard + ": no case is left for it, expected fewer shards");
-    }
-  }
+  const db::RunInfo info = run_info(arguments, cases);
+  if (arguments.plan_tasks) return plan_tasks(arguments, info, cases);
+  SIPPLAB_TRY_OR(bad_usage, deal_out(arguments, info, cases));
   if (flags.list_tests) {
-    for (const bench::NamedCase& named : cases.cases) print(full_name(cases, named) + "\n");
+    for (const bench::NamedCase& named : cases.cases) {
+      print(full_name(named, arguments.shard ? named.plannings.size() : iterations(named)) + "\n");
+    }
     return kSuccess;
   }
-  return run_sweep(arguments, flags, std::move(cases));
+  return run_sweep(arguments, flags, info, std::move(cases));
 }
 
 namespace {
@@ -331,22 +327,12 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       true);
   command.add_option("--repetitions", arguments.repetitions, "the same as --benchmark_repetitions")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
-  command
-      .add_option("--shard", arguments.shard,
-                  "only part I of N of the cases; `sipplab merge` joins the histories")
-      ->check(check_shard)
-      ->type_name("I/N");
-  command.add_flag("--resume", arguments.resume, "do only what is missing of a run that was stopped");
+  add_part_flags(command, arguments);
   add_database_flag(command, arguments.database);
   command.add_flag("--json", arguments.json, "print one JSON document");
 }
 
 }  // namespace
-
-std::string check_shard(const std::string& text) {
-  return bench::parse_shard(text) ? std::string()
-                                  : in_quotes(text) + ", expected I/N with 1 <= I <= N, such as 2/8";
-}
 
 Command add_bench_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<BenchArguments>();

@@ -14,6 +14,10 @@
 
 namespace sipplab::cli {
 
+/// Long enough for the time that a scheduler takes to start a task, short enough for a queue to fill gaps
+/// with.
+inline constexpr double kSecondsPerTask = 600;
+
 /// Texts are as the user wrote them, checked when the command line was read. What is empty
 /// leaves the suite's own.
 struct BenchArguments {
@@ -35,7 +39,14 @@ struct BenchArguments {
   std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
   std::optional<std::string> rounding;
   std::optional<std::string> shard;
-  bool resume = false;
+  std::string sweep;                ///< id of the run, or a word that tells repetitions of a sweep apart
+  std::optional<std::string> task;  ///< folder of the plan by which a shard is dealt out
+  const CLI::Option* resume =
+      nullptr;              ///< whether it was given tells more than its value, which may be empty
+  std::string resumed_run;  ///< empty: the last run of this command
+  std::optional<std::string> plan_tasks;
+  std::optional<std::size_t> tasks;
+  double seconds_per_task = kSecondsPerTask;
   std::optional<std::string> database;
   bool json = false;
   bool quiet = false;  ///< no table of the cases
@@ -47,7 +58,7 @@ struct BenchArguments {
 /// Runs the sweep, records it, and reports. Returns the exit code.
 int run_bench(const BenchArguments& arguments, std::vector<std::string> benchmark_flags);
 
-/// "2/8".
-std::string check_shard(const std::string& text);
+/// The flags of parts of a sweep: --shard, --sweep, --resume, --plan-tasks and what belongs to it.
+std::vector<CLI::Option*> add_part_flags(CLI::App& command, BenchArguments& arguments);
 
 }  // namespace sipplab::cli

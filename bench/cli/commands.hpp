@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace sipplab::cli {
 
@@ -17,6 +18,7 @@ struct Command {
 struct Invocation {
   std::string program;       ///< as a user would type it from here
   std::string command_line;  ///< "sipplab bench --suite smoke"
+  std::vector<std::string> arguments = {};
 };
 
 Command add_plan_command(CLI::App& program);
@@ -31,6 +33,7 @@ Command add_trend_command(CLI::App& program);
 Command add_report_command(CLI::App& program);
 Command add_plot_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
+Command add_task_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_documentation_command(CLI::App& program);
 Command add_doctor_command(CLI::App& program);

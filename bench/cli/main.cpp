@@ -21,6 +21,7 @@ std::vector<Command> add_laboratory_commands(CLI::App& program, const Invocation
       add_gate_command(program),
       add_trend_command(program),
       add_merge_command(program),
+      add_task_command(program),
       add_doctor_command(program),
       add_import_command(program),
       add_report_command(program),

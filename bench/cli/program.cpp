@@ -42,7 +42,10 @@ std::string typed_program(const std::string& path) {
 
 Invocation invocation_of(int argc, char** argv) {
   Invocation invocation{argc > 0 ? typed_program(argv[0]) : "sipplab", "sipplab"};
-  for (int i = 1; i < argc; ++i) invocation.command_line += " " + std::string(argv[i]);
+  for (int i = 1; i < argc; ++i) {
+    invocation.command_line += " " + std::string(argv[i]);
+    invocation.arguments.emplace_back(argv[i]);
+  }
   return invocation;
 }
 

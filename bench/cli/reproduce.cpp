@@ -13,7 +13,6 @@
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/present/paper_report.hpp"
-#include "bench/sweep/shard.hpp"
 #include "db/database.hpp"
 #include "db/json_text.hpp"
 #include "db/queries.hpp"
@@ -129,14 +128,7 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str()
       ->excludes(recorded);
-  command
-      .add_option("--shard", sweep.shard,
-                  "only part I of N of the cells; `sipplab merge` joins the histories")
-      ->check(check_shard)
-      ->excludes(recorded)
-      ->type_name("I/N");
-  command.add_flag("--resume", sweep.resume, "do only what is missing of a run that was stopped")
-      ->excludes(recorded);
+  for (CLI::Option* of_parts : add_part_flags(command, sweep)) of_parts->excludes(recorded);
   command.add_option("-o,--output", arguments.folder, "write index.html, figure1.svg and table1.svg there")
       ->type_name("DIR");
   add_database_flag(command, sweep.database);

@@ -26,8 +26,9 @@ constexpr std::string_view kBenchmarkOut = "--benchmark_out=";
 constexpr std::string_view kOfImprovement[] = {"objective", "threads"};
 constexpr std::string_view kImproving[] = {"improve", "best"};
 
-/// Options that may be empty: words that a checkout need not have, and the value of a parameter.
-constexpr std::string_view kMayBeEmpty[] = {"subject", "branch", "param"};
+/// Options that may be empty: words that a checkout need not have, the value of a parameter, and what may
+/// stand without a value.
+constexpr std::string_view kMayBeEmpty[] = {"subject", "branch", "param", "resume"};
 
 struct NamedFile {
   std::string option;  ///< "--svg"

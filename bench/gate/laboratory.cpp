@@ -55,7 +55,7 @@ Expected<std::uint64_t, std::string> record_case(db::RunRecorder& recorder, std:
     recorder.add(parameters, {fmt::format("{:016x}", i), "map", fmt::format("number {}", i), 64, 32, 32, 0},
                  invented(i));
   }
-  const auto done = recorder.commit_case(parameters);
+  const auto done = recorder.commit();
   if (!done) return Unexpected{done.error().message};
   return std::uint64_t{kResultsOfCase};
 }

@@ -52,7 +52,7 @@ void record_cases(benchmark::State& state) {
           fmt::format("{:016x}", i), "map", fmt::format("number {}", i), 64, 32, 32, 0};
       recorder->add(parameters, instance, sample_row(i));
     }
-    if (const auto done = recorder->commit_case(parameters); !done) {
+    if (const auto done = recorder->commit(); !done) {
       return state.SkipWithError(done.error().message.c_str());
     }
   }

@@ -27,7 +27,13 @@ std::vector<PlannerOptions> with_each(const std::vector<PlannerOptions>& all, co
 /// The block with what the user replaced, and the limits of the suite.
 SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
   if (request.map) block.map = *request.map;
-  if (!request.robots.empty()) block.robots = request.robots;
+  const bool chooses = request.suite != nullptr && request.suite->fitting_maps;
+  if (!request.robots.empty() && !chooses) block.robots = request.robots;
+  if (!request.robots.empty() && chooses) {
+    std::erase_if(block.robots, [&request](std::size_t robots) {
+      return std::find(request.robots.begin(), request.robots.end(), robots) == request.robots.end();
+    });
+  }
   if (!request.radii_cells.empty()) block.bodies.radii_cells = request.radii_cells;
   if (!request.speeds_cells_per_s.empty()) block.bodies.speeds_cells_per_s = request.speeds_cells_per_s;
   if (request.random_seeds) block.random_seeds = *request.random_seeds;
@@ -192,16 +198,44 @@ ExpandedSweep expand_adversarial(const SweepRequest& request) {
   return expansion.take();
 }
 
+/// A flag that the suite does not take, in one line.
+std::optional<std::string> find_idle_flag(const SweepRequest& request) {
+  const Suite& suite = *request.suite;
+  const std::pair<const char*, bool> of_instances[] = {{"--robots", !request.robots.empty()},
+                                                       {"--count", request.count.has_value()},
+                                                       {"--radius", !request.radii_cells.empty()},
+                                                       {"--speed", !request.speeds_cells_per_s.empty()}};
+  if (request.map && (suite.adversarial_cases || suite.fitting_maps)) {
+    return "--map: suite " + suite.name + " has maps of its own, expected another suite";
+  }
+  for (const auto& [flag, given] : of_instances) {
+    if (given && suite.adversarial_cases) {
+      return std::string(flag) + ": suite " + suite.name +
+             " has instances of its own, expected another suite";
+    }
+  }
+  if (!suite.fitting_maps) return std::nullopt;
+  for (const std::size_t robots : request.robots) {
+    std::string known;
+    bool found = false;
+    for (const SuiteBlock& block : suite.blocks) {
+      found = found || block.robots.front() == robots;
+      known += (known.empty() ? "" : ", ") + std::to_string(block.robots.front());
+    }
+    if (!found) {
+      return "--robots " + std::to_string(robots) + ": suite " + suite.name + " has maps for " + known +
+             ", expected some of these";
+    }
+  }
+  return std::nullopt;
+}
+
 Expected<ExpandedSweep, std::string> expand_all(const SweepRequest& request) {
   if (request.suite == nullptr && (request.radii_cells.size() > 1 || request.speeds_cells_per_s.size() > 1)) {
     return Unexpected{std::string("several radii or speeds for the robots of files, expected one")};
   }
   if (request.suite == nullptr) return expand_folders(request);
-  if (request.suite->adversarial_cases &&
-      !(request.radii_cells.empty() && request.speeds_cells_per_s.empty())) {
-    return Unexpected{
-        std::string("--radius or --speed for robots that have their own, expected another suite")};
-  }
+  if (const auto line = find_idle_flag(request)) return Unexpected{*line};
   if (request.suite->adversarial_cases) return expand_adversarial(request);
   const Suite& suite = *request.suite;
   Expansion expansion(request);

@@ -1,11 +1,13 @@
 // From what the user asked for to the list of cases and their instances.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/instance_set.hpp"
 #include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep_case.hpp"
@@ -36,9 +38,19 @@ struct SweepRequest {
   std::string command;  ///< name of the program that plans instead; empty: this planner
 };
 
+/// Which planning of a case: a place in its set of instances, and which repetition. Both counted from 0.
+struct Planning {
+  std::int64_t position = 0;
+  std::int64_t repetition = 0;
+
+  friend auto operator<=>(const Planning&, const Planning&) = default;
+};
+
 struct NamedCase {
   std::string name;
   SweepCase parameters;
+  std::vector<Planning> plannings = {};  ///< what is to be done; expand() leaves it empty
+  CaseOutcome outcome = {};              ///< of what was recorded before
 };
 
 struct ExpandedSweep {

@@ -79,7 +79,7 @@ std::string result_table(const std::vector<SweepEntry>& entries) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const SweepEntry& entry : entries) {
-    if (!entry.finished) continue;
+    if (!entry.finished()) continue;
     const CaseOutcome& outcome = entry.outcome;
     std::vector<std::string> row;
     for (const Parameter& parameter : parameters) row.push_back(parameter.value(entry.parameters));
@@ -105,7 +105,7 @@ std::string result_json(const std::vector<SweepEntry>& entries, const std::strin
                         const std::string& run, const std::string& database, bool finished) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const SweepEntry& entry : entries) {
-    if (!entry.finished) continue;
+    if (!entry.finished()) continue;
     const CaseOutcome& outcome = entry.outcome;
     nlohmann::ordered_json json;
     json["name"] = entry.name;

@@ -121,6 +121,13 @@ db::BuildInfo build_info(const SourceInfo& source) {
   return build;
 }
 
+std::string text_uuid(std::string_view text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  const std::string digits = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return fmt::format("{}-{}-8{}-8{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 3),
+                     digits.substr(15, 3), digits.substr(18, 12));
+}
+
 std::string text_digest(std::string_view text) { return digest_text(XXH3_64bits(text.data(), text.size())); }
 
 db::RunOrigin run_origin() {

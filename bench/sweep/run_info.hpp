@@ -36,6 +36,9 @@ db::RunOrigin run_origin();
 /// measure with.
 std::string unfit_for_timing();
 
+/// A UUID (version 8) that is the same for the same text.
+std::string text_uuid(std::string_view text);
+
 /// 16 hexadecimal digits that tell texts apart.
 std::string text_digest(std::string_view text);
 

@@ -1,11 +1,41 @@
 #include "bench/sweep/shard.hpp"
 
-#include <cstdint>
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <queue>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "planner/core/number.hpp"
+#include "planner/core/random.hpp"
 
 namespace sipplab::bench {
+namespace {
+
+/// A planning of a sweep, by its case.
+struct Dealt {
+  std::size_t in_case;
+  Planning planning;
+};
+
+std::vector<Dealt> all_plannings(const ExpandedSweep& sweep, std::int64_t repetitions) {
+  std::vector<Dealt> all;
+  all.reserve(planning_count(sweep, repetitions));
+  for (std::size_t in_case = 0; in_case < sweep.cases.size(); ++in_case) {
+    const std::size_t instances = sweep.sets[sweep.cases[in_case].parameters.set].instances.size();
+    for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
+      for (std::size_t position = 0; position < instances; ++position) {
+        all.push_back({in_case, {static_cast<std::int64_t>(position), repetition}});
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
 std::optional<Shard> parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) return std::nullopt;
@@ -13,6 +43,58 @@ std::optional<Shard> parse_shard(const std::string& text) {
   const auto count = parse_number<std::uint32_t>(std::string_view(text).substr(slash + 1));
   if (!index || !count || *index < 1 || *index > *count) return std::nullopt;
   return Shard{*index - 1, *count};
+}
+
+double expected_seconds(const SweepCase& sweep_case) {
+  // 32 robots take about 2 ms, and robots have to avoid each other; reading and checking takes something,
+  // too.
+  constexpr double kSecondsPerPair = 2e-6;
+  constexpr double kLeastSeconds = 1e-4;
+  const auto robots = static_cast<double>(sweep_case.robots);
+  return kLeastSeconds + kSecondsPerPair * robots * robots;
+}
+
+std::size_t planning_count(const ExpandedSweep& sweep, std::int64_t repetitions) {
+  std::size_t count = 0;
+  for (const NamedCase& named : sweep.cases) count += sweep.sets[named.parameters.set].instances.size();
+  return count * static_cast<std::size_t>(repetitions);
+}
+
+void deal_all(ExpandedSweep& sweep, std::int64_t repetitions) {
+  for (const Dealt& one : all_plannings(sweep, repetitions)) {
+    sweep.cases[one.in_case].plannings.push_back(one.planning);
+  }
+}
+
+void deal(ExpandedSweep& sweep, std::int64_t repetitions, const Shard& shard, std::uint64_t seed,
+          const std::vector<double>& seconds) {
+  std::vector<Dealt> all = all_plannings(sweep, repetitions);
+  Random(seed).shuffle(all);
+  std::vector<std::size_t> longest_first(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) longest_first[i] = i;
+  std::stable_sort(longest_first.begin(), longest_first.end(), [&](std::size_t a, std::size_t b) {
+    return seconds[all[a].in_case] > seconds[all[b].in_case];
+  });
+  // By seconds, then by the number of plannings, which is what counts among the shortest.
+  using Load = std::tuple<double, std::size_t, std::size_t>;
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
+  for (std::size_t i = 0; i < shard.count; ++i) loads.emplace(0.0, 0, i);
+  std::vector<std::size_t> mine;
+  for (const std::size_t planning : longest_first) {
+    const auto [load, plannings, index] = loads.top();
+    loads.pop();
+    loads.emplace(load + seconds[all[planning].in_case], plannings + 1, index);
+    if (index == shard.index) mine.push_back(planning);
+  }
+  std::sort(mine.begin(), mine.end());
+  std::vector<NamedCase> kept;
+  std::map<std::size_t, std::size_t> place;  // of a case in `kept`
+  for (const std::size_t planning : mine) {
+    const auto [found, is_new] = place.emplace(all[planning].in_case, kept.size());
+    if (is_new) kept.push_back(sweep.cases[all[planning].in_case]);
+    kept[found->second].plannings.push_back(all[planning].planning);
+  }
+  sweep.cases = std::move(kept);
 }
 
 }  // namespace sipplab::bench

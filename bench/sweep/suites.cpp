@@ -172,7 +172,8 @@ std::vector<Suite> make_suites() {
                   {"empty:181x181", {2048}, over(by_rule)},
                   {"empty:256x256", {4096}, over(by_rule)},
                   {"empty:362x362", {8192}, over(by_rule)},
-                  {"empty:512x512", {16384}, over(by_rule)}}},
+                  {"empty:512x512", {16384}, over(by_rule)}},
+       .fitting_maps = true},
   };
 }
 

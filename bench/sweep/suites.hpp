@@ -43,9 +43,11 @@ struct Suite {
   /// point on every machine, so if it strikes first, results are repeatable.
   std::uint64_t max_restarts = UINT64_MAX;
   std::vector<SuiteBlock> blocks = {};
-  /// The cases of bench/sweep/adversarial.hpp, each with its own map, robots and options. Of what
-  /// a user replaces, everything but map, robots and count applies.
+  /// The cases of bench/sweep/adversarial.hpp, each with its own instance and options: nothing replaces the
+  /// instance.
   bool adversarial_cases = false;
+  /// Each block has the map for its robots: numbers of robots choose blocks, and no map replaces theirs.
+  bool fitting_maps = false;
 };
 
 /// In the order in which --help lists them.

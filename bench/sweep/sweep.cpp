@@ -23,6 +23,10 @@ std::vector<SweepEntry> entries_of(std::vector<NamedCase> cases) {
     entry.name = std::move(named.name);
     entry.row = case_row(named.parameters);
     entry.parameters = std::move(named.parameters);
+    // Of what was called for last the planner hears while it plans.
+    entry.parameters.options.stop = &hurry_flag();
+    entry.plannings = std::move(named.plannings);
+    entry.outcome = named.outcome;
     entries.push_back(std::move(entry));
   }
   return entries;
@@ -37,10 +41,15 @@ void warm_up() {
   if (instance) run_instance(*instance, {});
 }
 
-std::size_t instance_count(const ExpandedSweep& sweep) {
+std::size_t count_left(const ExpandedSweep& sweep) {
   std::size_t count = 0;
-  for (const NamedCase& named : sweep.cases) count += sweep.sets[named.parameters.set].instances.size();
+  for (const NamedCase& named : sweep.cases) count += named.plannings.size();
   return count;
+}
+
+std::size_t cases_left(const ExpandedSweep& sweep) {
+  return static_cast<std::size_t>(std::count_if(sweep.cases.begin(), sweep.cases.end(),
+                                                [](const auto& named) { return !named.plannings.empty(); }));
 }
 
 void set_counters(benchmark::State& state, const CaseOutcome& outcome, bool fill) {
@@ -59,20 +68,39 @@ Recording::Recording(db::Database database, db::RunInfo info, std::optional<std:
     : database_(std::move(database)), info_(std::move(info)), resume_(std::move(resume)) {}
 
 db::Result<db::Done> Recording::start() {
-  auto recorder = resume_ ? db::RunRecorder::resume(std::move(*database_), *resume_)
+  auto recorder = resume_ ? db::RunRecorder::resume(std::move(*database_), *resume_, info_)
                           : db::RunRecorder::begin(std::move(*database_), info_);
   database_.reset();
   if (!recorder) return Unexpected{recorder.error()};
   recorder_.emplace(std::move(*recorder));
+  committed_ = std::chrono::steady_clock::now();
   return db::Done{};
+}
+
+void Recording::add(const SweepEntry& entry, const db::InstanceInfo& instance, const db::ResultRow& row) {
+  recorder_->add(entry.row, instance, row);
+  usage_.add_peak(row.peak_memory_bytes.value_or(0));
+}
+
+db::Result<db::Done> Recording::commit_if_due() {
+  // What a kill may cost. A commit takes milliseconds.
+  constexpr std::chrono::seconds kBetweenCommits{1};
+  const auto now = std::chrono::steady_clock::now();
+  if (now - committed_ < kBetweenCommits) return db::Done{};
+  committed_ = now;
+  return recorder_->commit(usage_.now());
+}
+
+db::Result<db::Done> Recording::finish(db::RunStatus status) {
+  SIPPLAB_TRY(recorder_->commit(usage_.now()));
+  return recorder_->finish(status, usage_.now());
 }
 
 Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
              std::optional<CommandPlanner> command)
     : recording_(std::move(recording)),
       repetitions_(repetitions),
-      progress_(cases.cases.size(), instance_count(cases) * static_cast<std::size_t>(repetitions),
-                live_progress),
+      progress_(cases_left(cases), count_left(cases), live_progress),
       command_(std::move(command)) {
   sets_ = std::move(cases.sets);
   entries_ = entries_of(std::move(cases.cases));
@@ -80,13 +108,16 @@ Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions,
 
 void Sweep::register_benchmarks(bool fill_counters) {
   for (SweepEntry& entry : entries_) {
-    const auto count = static_cast<benchmark::IterationCount>(sets_[entry.parameters.set].instances.size());
-    benchmark::RegisterBenchmark(
+    if (entry.finished()) continue;
+    const std::size_t instances = sets_[entry.parameters.set].instances.size();
+    const bool whole = entry.plannings.size() == instances * static_cast<std::size_t>(repetitions_);
+    benchmark::internal::Benchmark* benchmark = benchmark::RegisterBenchmark(
         entry.name.c_str(),
-        [this, &entry, fill_counters](benchmark::State& state) { measure(state, entry, fill_counters); })
-        ->Iterations(count)
+        [this, &entry, fill_counters](benchmark::State& state) { measure(state, entry, fill_counters); });
+    benchmark->Iterations(static_cast<benchmark::IterationCount>(whole ? instances : entry.plannings.size()))
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
+    if (!whole && repetitions_ > 1) benchmark->Repetitions(1);
   }
 }
 
@@ -128,29 +159,28 @@ const LowerBound& Sweep::bound_of(const PreparedInstance& prepared, const Planne
 void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counters) {
   const std::vector<PreparedInstance>& instances = sets_[entry.parameters.set].instances;
   if (!std::exchange(entry.begun, true) && !stopping()) {
-    progress_.begin_case(short_case_name(entry.parameters),
-                         instances.size() * static_cast<std::size_t>(repetitions_));
+    progress_.begin_case(short_case_name(entry.parameters), entry.plannings.size());
   }
   CaseOutcome outcome;  // of this repetition
   std::string violation;
-  std::size_t next = 0;
   PeakMemory memory;  // a case has its own baseline: the process holds what cases before it left
   for ([[maybe_unused]] auto iteration : state) {
     if (stopping()) {
       state.SkipWithError("stopped before its end");
       break;
     }
-    const std::size_t position = next++;
-    const PreparedInstance& prepared = instances[position];
+    const Planning& planning = entry.plannings[entry.next];
+    const PreparedInstance& prepared = instances[static_cast<std::size_t>(planning.position)];
     Expected<db::ResultRow, std::string> planned = plan_one(prepared, entry.parameters, memory);
     if (!planned) error_ = db::Error{db::ErrorKind::kInternal, std::move(planned.error())};
-    if (command_ && stopping()) {
-      state.SkipWithError("stopped before its end");  // the program was ended, too
+    if (hurry_flag() || (command_ && stopping())) {
+      state.SkipWithError("stopped before its end");  // and so was the planning
       break;
     }
+    ++entry.next;
     db::ResultRow& row = *planned;
-    row.position = static_cast<std::int64_t>(position);
-    row.repetition = entry.repetitions;
+    row.position = planning.position;
+    row.repetition = planning.repetition;
     state.SetIterationTime(static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond);
     // Of this planner that is an error of its own; of another one it is a result.
     if (!command_ && row.status == db::ResultStatus::kInvalid && violation.empty()) {
@@ -158,10 +188,10 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
     }
     outcome.add(row);
     entry.outcome.add(row);
-    recording_.recorder().add(entry.row, prepared.row, row);
+    recording_.add(entry, prepared.row, row);
+    if (const auto committed = recording_.commit_if_due(); !committed) error_ = committed.error();
     progress_.finish_instance();
   }
-  ++entry.repetitions;
   if (!violation.empty()) {
     if (first_invalid_.empty()) first_invalid_ = violation;
     state.SkipWithError(("invalid plan: " + violation).c_str());
@@ -173,19 +203,7 @@ void Sweep::measure(benchmark::State& state, SweepEntry& entry, bool fill_counte
 void Sweep::finish_case(const std::string& name) {
   const auto entry = std::find_if(entries_.begin(), entries_.end(),
                                   [&name](const SweepEntry& candidate) { return candidate.name == name; });
-  if (entry == entries_.end() || entry->finished || error_) return;
-  const std::size_t expected =
-      sets_[entry->parameters.set].instances.size() * static_cast<std::size_t>(repetitions_);
-  if (static_cast<std::size_t>(entry->outcome.results()) < expected) {  // stopped half-way
-    recording_.recorder().discard_case(entry->row);
-    return;
-  }
-  const db::Result<db::Done> committed = recording_.recorder().commit_case(entry->row);
-  if (!committed) {
-    error_ = committed.error();
-    return;
-  }
-  entry->finished = true;
+  if (entry == entries_.end() || !entry->finished() || error_) return;
   const std::optional<double> solved_in_s = entry->outcome.mean_solved_planning_s();
   progress_.finish_case(fmt::format("success {:.2f}", entry->outcome.success_rate()) +
                         (solved_in_s ? fmt::format(", solved in {:.2f} ms", *solved_in_s * 1e3) : ""));
@@ -195,12 +213,12 @@ void Sweep::end() {
   progress_.clear();
   if (!recording_.started()) return;
   const bool complete =
-      std::all_of(entries_.begin(), entries_.end(), [](const SweepEntry& entry) { return entry.finished; });
+      std::all_of(entries_.begin(), entries_.end(), [](const SweepEntry& entry) { return entry.finished(); });
   const db::Result<db::Done> closed =
-      recording_.recorder().finish(complete ? db::RunStatus::kFinished : db::RunStatus::kAborted);
+      recording_.finish(complete && !error_ ? db::RunStatus::kFinished : db::RunStatus::kAborted);
   if (!closed && !error_) error_ = closed.error();
 }
 
-std::string Sweep::run_uuid() { return recording_.started() ? recording_.recorder().run_uuid() : ""; }
+std::string Sweep::run_uuid() { return recording_.started() ? recording_.run_uuid() : ""; }
 
 }  // namespace sipplab::bench

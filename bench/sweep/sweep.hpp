@@ -1,10 +1,11 @@
 // A sweep under way: the one place where planner, Google Benchmark and history meet.
-// Each case is a benchmark whose iterations run over its instances; when the case
-// is done, its results go to the history in one transaction.
+// Each case is a benchmark whose iterations run over its plannings; about once a second
+// what is done goes to the history in one transaction.
 #pragma once
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bench/sweep/attempt.hpp"
 #include "bench/sweep/case_outcome.hpp"
 #include "bench/sweep/command_planner.hpp"
 #include "bench/sweep/expand.hpp"
@@ -26,10 +28,12 @@ struct SweepEntry {
   std::string name;
   SweepCase parameters;
   db::CaseInfo row;
+  std::vector<Planning> plannings;  ///< to be done by this process
+  std::size_t next = 0;             ///< the first of them that is not done
   CaseOutcome outcome;
-  std::int64_t repetitions = 0;  ///< done so far
   bool begun = false;
-  bool finished = false;  ///< its results are in the history
+
+  bool finished() const { return next == plannings.size(); }
 };
 
 /// Where the results go. Nothing is written before start().
@@ -40,30 +44,37 @@ class Recording {
 
   db::Result<db::Done> start();
   bool started() const { return recorder_.has_value(); }
-  db::RunRecorder& recorder() { return *recorder_; }
+  void add(const SweepEntry& entry, const db::InstanceInfo& instance, const db::ResultRow& row);
+  /// Commits where the last time was about a second ago.
+  db::Result<db::Done> commit_if_due();
+  db::Result<db::Done> finish(db::RunStatus status);
+  const std::string& run_uuid() const { return recorder_->run_uuid(); }
 
  private:
   std::optional<db::Database> database_;
   db::RunInfo info_;
   std::optional<std::string> resume_;
   std::optional<db::RunRecorder> recorder_;
+  UsageMeter usage_;
+  std::chrono::steady_clock::time_point committed_ = {};
 };
 
 class Sweep {
  public:
-  /// `command`: plans instead of this planner.
+  /// Does the plannings that the cases name; `repetitions` of each instance belong together in reports where
+  /// all of a case are to be done. `command`: plans instead of this planner.
   Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
         std::optional<CommandPlanner> command = std::nullopt);
 
-  /// Makes a benchmark of each case. `fill_counters`: give every counter a value, as
+  /// Makes a benchmark of each case that is not finished. `fill_counters`: give every counter a value, as
   /// CSV needs (-1 for a mean over nothing).
   void register_benchmarks(bool fill_counters);
 
   /// Opens the run in the history. False, with error(), where that fails.
   bool begin();
-  /// Commits the results of a case; `name` is that of its benchmark.
+  /// Says what became of a case; `name` is that of its benchmark.
   void finish_case(const std::string& name);
-  /// Closes the run.
+  /// Commits what is left and closes the run.
   void end();
 
   const std::vector<SweepEntry>& entries() const { return entries_; }

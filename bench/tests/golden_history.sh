@@ -18,28 +18,113 @@ bench() { expect 0 bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 "$@"; }
 
 # --- shards: the parts are the whole, and join up -----------------------------------------
 
+# plannings_of_each_case: "plan/.../iterations:3/manual_time" of all shards summed up.
+plannings_of_each_case() { sed -E 's|(.*)/iterations:([0-9]+)/manual_time|\1 \2|' | awk '{n[$1] += $2} END {for (c in n) print c, n[c]}' | sort; }
 expect 0 bench --suite smoke --benchmark_list_tests
-sort out >whole
+plannings_of_each_case <out >whole
 : >parts
 for shard in 1/3 2/3 3/3; do
   expect 0 bench --suite smoke --shard "$shard" --benchmark_list_tests
   cat out >>parts
 done
-cmp -s whole <(sort parts) || complain "three shards are not the suite"
+cmp -s whole <(plannings_of_each_case <parts) || complain "three shards are not the suite"
+expect 0 bench --suite smoke --robots 64 --ssi 5 --reschedule none --map empty:32x32 --order shortest --shard 3/3 --benchmark_list_tests
+says '/iterations:1/' # one case of three instances over three shards
 refused "'4/3', expected I/N" bench --shard 4/3
-refused "no case is left" bench --suite smoke --shard 999/999
+refused "no planning is left for it, expected at most 144 shards" bench --suite smoke --shard 999/999
 
-bench --shard 1/2 --db a.db
-bench --shard 2/2 --db b.db
+# All of it by one process, to compare with; times apart the parts are to be the same.
+outcomes="SELECT environment, robots, ssi_s, reschedule, initial_order, planner, instance_hash, position, repetition, status,
+  makespan_s, flowtime_s, tries, expansions, plan_hash FROM v_results ORDER BY 1, 2, 3, 4, 5, 6, 7, 8, 9"
+bench --db whole.db --repetitions 2
+ask "$outcomes" whole.db >whole
+
+bench --repetitions 2 --shard 1/2 --db a.db
+bench --repetitions 2 --shard 2/2 --db b.db
+refused 'expected --resume to go on with it, or --sweep' bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 --repetitions 2 --shard 2/2 --db b.db
+expect 0 merge a.db
+equal "$(ask 'SELECT shard, status FROM v_sweeps')" "1/2|finished" "one part"
 expect 0 merge a.db b.db
-says '^a.db: 1 runs, [0-9]+ cells, [0-9]+ results'
-equal "$(ask 'SELECT group_concat(shard) FROM (SELECT shard FROM run ORDER BY shard)')" "1/2,2/2" "shards"
-equal "$(ask 'SELECT count(DISTINCT case_id) FROM cell')" "$(ask 'SELECT count(*) FROM cell')" "cases of the shards"
+says '^b.db: 0 runs, [0-9]+ cells, [0-9]+ results'
+equal "$(ask 'SELECT count(*), shard, status, missing, attempts, machines FROM v_sweeps')" "1||finished|0|2|1" "the sweep of two parts"
+ask "$outcomes" >merged
+cmp -s whole merged || complain "two parts are not what one process makes"
+expect 0 doctor
+rm -f both.db*
+bench --repetitions 2 --shard 2/2 --db both.db
+bench --repetitions 2 --shard 1/2 --db both.db
+says '0 of [0-9]+ plannings are there' err
+equal "$(ask 'SELECT count(*), shard, status, missing, attempts FROM v_sweeps' both.db)" "1||finished|0|2" "two parts in one file"
+# A repetition of the sweep has another name.
+bench --repetitions 2 --shard 1/2 --sweep again --db both.db
+equal "$(ask 'SELECT count(*) FROM v_sweeps' both.db)" 2 "sweeps after a repetition"
 before=$(ask 'SELECT count(*) FROM result')
 expect 0 merge b.db a.db --json
 says '"added": \{\}'
 equal "$(ask 'SELECT count(*) FROM result')" "$before" "results after merging again"
-equal "$(ask 'SELECT group_concat(DISTINCT origin) FROM run')" "a.db,b.db" "origins"
+equal "$(ask 'SELECT group_concat(DISTINCT origin) FROM run')" "a.db" "origins"
+# From a medium that cannot be written, where one can be mounted.
+if unshare --mount --map-root-user true 2>/dev/null; then
+  mkdir -p medium && cp a.db b.db whole.db medium
+  runs 0 unshare --mount --map-root-user bash -c '
+    mount --bind medium medium && mount -o remount,bind,ro medium && "$1" merge medium/a.db medium/b.db medium/whole.db --db fresh.db' _ "$sipplab"
+  equal "$(ask 'SELECT group_concat(status) FROM v_sweeps' fresh.db)" "finished,finished" "sweeps from a read-only folder"
+  : >medium/a.db-journal && printf 'half of a transaction' >medium/a.db-journal
+  runs 2 unshare --mount --map-root-user bash -c '
+    mount --bind medium medium && mount -o remount,bind,ro medium && "$1" merge medium/a.db --db other.db' _ "$sipplab"
+  says 'a program that was killed left medium/a.db-journal' err
+  rm -f fresh.db* other.db*
+fi
+
+# --- tasks of an array -----------------------------------------------------------------------
+
+mkdir odd
+refused 'odd/sweep.json: cannot be read' task run odd 1
+echo '{}' >odd/sweep.json
+refused 'not a plan of tasks' task collect odd --db none.db
+[ ! -e none.db ] || complain 'a history was made by collecting nothing'
+bench --plan-tasks tasks --tasks 5
+says '^[0-9]+ plannings in 5 tasks'
+refused 'holds a sweep' bench --suite smoke --plan-tasks tasks
+refused 'no task: expected its number' task run tasks
+refused "'6', expected a number from 1 to 5" task run tasks 6
+expect 0 task missing tasks
+equal "$(cat out)" "1-5" "missing tasks"
+expect 1 task collect tasks --db collected.db
+# Counted from 1 by one scheduler, from 0 by another.
+runs 0 env SGE_TASK_ID=1 JOB_ID=17 "$sipplab" task run tasks
+expect 0 task run tasks 0
+runs 0 env SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=9 SLURM_JOB_ID=11 SLURM_RESTART_COUNT=3 SIPPLAB_SUBMITTED=1 "$sipplab" task run tasks
+equal "$(ask "SELECT scheduler, job, task, restarts, queued_s > 1e9, cores > 0 FROM v_attempts" tasks/2.db)" "slurm|9|2|3|1|1" "an attempt in Slurm"
+equal "$(cat tasks/*.exit | sort -u)" 0 "exit codes"
+expect 1 task collect tasks --db collected.db
+says 'of tasks 3-4' err
+expect 0 task missing tasks
+equal "$(cat out)" "3-4" "missing tasks"
+# A task that runs again does nothing.
+expect 0 task run tasks 2
+equal "$(ask 'SELECT count(*) FROM v_attempts' tasks/2.db)" 1 "attempts of a task that ran twice"
+expect 0 task run tasks 3
+expect 0 task run tasks 4
+expect 0 task collect tasks --db collected.db --json
+says '"missing": 0'
+expect 0 task collect tasks --db collected.db
+says '0 new'
+equal "$(ask 'SELECT status, missing, attempts FROM v_sweeps' collected.db)" "finished|0|5" "the collected sweep"
+equal "$(ask 'SELECT command_line FROM run' collected.db)" "sipplab bench --suite smoke --robots 8,16 --ssi 0,3 --count 3" "its command"
+bench --db one.db
+cmp -s <(ask "$outcomes" collected.db) <(ask "$outcomes" one.db) || complain "five tasks are not what one process makes"
+expect 0 doctor --db collected.db
+# One that fails by itself is named, and not run again.
+echo 70 >tasks/3.exit
+expect 0 task missing tasks
+equal "$(cat out)" "" "missing tasks"
+says 'task 3 failed by itself: exit code 70' err
+# Another program, or other instances, are kept out.
+sed -i 's/"binary_hash": "[^"]*"/"binary_hash": "0123456789abcdef"/' tasks/sweep.json
+refused 'was planned by another build' task run tasks 3
+cmp -s <(ask "$outcomes" collected.db) <(expect 0 task collect tasks --db collected.db && ask "$outcomes" collected.db) || complain "a task that was refused changed results"
+
 refused 'merged into itself' merge sipplab.db
 refused 'none.db: no such file' merge none.db
 refused 'none.db: no such file' merge none.db --db fresh.db
@@ -67,7 +152,7 @@ for version in 1 2 3 4 5 6 7 8 9 10; do
       SELECT (SELECT max(id) FROM run), case_id, finished_utc, result_count FROM cell WHERE run_id = 2;
     INSERT INTO result SELECT new.id, instance_id, position, repetition,
              iif($version > 5 AND position = 0, 1, status), planning_time_ns, makespan_s, flowtime_s, tries, expansions,
-             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns
+             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns, attempt_id
       FROM cell AS old JOIN result ON result.cell_id = old.id
       JOIN cell AS new ON new.case_id = old.case_id AND new.run_id = (SELECT max(id) FROM run) WHERE old.run_id = 2;"
 done

@@ -40,7 +40,8 @@ says '"reproduced": '
 says '"success_interval": '
 equal "$(grep -c '"holds": null' out)" 10 'claims in JSON'
 verdict --quick --count 2 --robots 32 --repeats 1 --time-limit 300 --resume
-says 'no unfinished run' err
+says 'plannings are there' err
+cmp -s out first || complain 'resumed when finished, the run says something else'
 
 # The pictures alone, from the history.
 expect 0 plot figure1 -o figure1.svg

@@ -48,6 +48,14 @@ refused "--worse 'makespan', expected" trials compare --worse makespan 0.1 3
 refused 'usage' bisect HEAD
 refused 'expected a commit' bisect HEAD no/such/commit
 refused "--calibrate 'x', expected" pull-request HEAD --calibrate x
+refused 'usage' slurm
+refused '--dir, expected a value' slurm --dir
+refused "--tasks 'x', expected a number" slurm --tasks x --suite smoke
+refused "--missing '.*', expected a folder" slurm --missing no/such
+refused "time 'x', expected" slurm --fuzz x
+refused "--program 'no/such', expected a program" slurm --program no/such --suite smoke
+refused "--seed 'x', expected a number" test-slurm --seed x
+refused '--frobnicate, expected' test-slurm --frobnicate
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
 
 # --- the judge of commits -----------------------------------------------------------

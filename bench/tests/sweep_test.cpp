@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "bench/sweep/benchmark_flags.hpp"
@@ -19,6 +20,7 @@
 #include "bench/sweep/instruction_count.hpp"
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "bench/sweep/shard.hpp"
 #include "bench/sweep/suites.hpp"
 #include "planner/solve/plan.hpp"
 #include "sipplab/generator.hpp"
@@ -235,7 +237,7 @@ TEST(Expand, EveryCaseOfEverySuiteHasItsOwnName) {
   for (const Suite& suite : suites()) {
     SweepRequest request;
     request.suite = &suite;
-    request.count = 1;
+    if (!suite.adversarial_cases) request.count = 1;
     const auto sweep = expand(request);
     ASSERT_TRUE(sweep.has_value()) << sweep.error();
     std::set<std::string> names;
@@ -341,6 +343,72 @@ TEST(GenerateSet, AnInstanceDoesNotDependOnTheCount) {
   EXPECT_NE(many->instances[1].row.content_hash, many->instances[2].row.content_hash);
   EXPECT_EQ(few->environment, "random");
   EXPECT_FALSE(generate_set("empty:2x2", 5, 1, 1).has_value());
+}
+
+ExpandedSweep small_sweep() {
+  SweepRequest request;
+  request.suite = find_suite("density");
+  request.map = "empty:12x12";
+  request.robots = {2, 4, 12};
+  request.values = {values("ssi", {"5"}), values("reschedule", {"none"})};
+  request.count = 10;
+  return expand(request).value();
+}
+
+using Dealt = std::set<std::tuple<std::string, std::int64_t, std::int64_t>>;
+
+TEST(Shards, EachPlanningLiesInOneOfThem) {
+  const ExpandedSweep all = small_sweep();
+  for (const std::size_t count : {std::size_t{1}, std::size_t{7}, std::size_t{60}}) {
+    Dealt dealt;
+    std::size_t plannings = 0;
+    for (std::size_t index = 0; index < count; ++index) {
+      ExpandedSweep part = all;
+      deal(part, 2, {index, count}, 1, {1, 1, 1});
+      for (const NamedCase& named : part.cases) {
+        for (const Planning& planning : named.plannings) {
+          dealt.emplace(named.name, planning.position, planning.repetition);
+          ++plannings;
+        }
+      }
+    }
+    EXPECT_EQ(plannings, 60u) << count;
+    EXPECT_EQ(dealt.size(), 60u) << count;
+  }
+}
+
+TEST(Shards, TakeAboutTheSameTime) {
+  const std::vector<double> seconds = {1, 2, 30};
+  std::vector<double> loads;
+  for (std::size_t index = 0; index < 5; ++index) {
+    ExpandedSweep part = small_sweep();
+    deal(part, 1, {index, 5}, 1, seconds);
+    double load = 0;
+    for (const NamedCase& named : part.cases) {
+      const double each = named.parameters.robots == 12 ? 30 : named.parameters.robots == 4 ? 2 : 1;
+      load += each * static_cast<double>(named.plannings.size());
+    }
+    loads.push_back(load);
+  }
+  // 330 s in all; the last to be dealt out are the shortest.
+  EXPECT_LE(*std::max_element(loads.begin(), loads.end()) - *std::min_element(loads.begin(), loads.end()), 1);
+}
+
+TEST(Shards, AreDealtOutInAnOrderThatTheSeedShuffles) {
+  const auto first = [](std::uint64_t seed) {
+    ExpandedSweep part = small_sweep();
+    deal(part, 1, {0, 3}, seed, {1, 1, 1});
+    std::vector<std::int64_t> positions;
+    for (const NamedCase& named : part.cases) {
+      for (const Planning& planning : named.plannings) positions.push_back(planning.position);
+    }
+    return positions;
+  };
+  EXPECT_EQ(first(1), first(1));
+  EXPECT_NE(first(1), first(2));
+  std::vector<std::int64_t> sorted = first(1);
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_NE(first(1), sorted);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "db/sqlite/statement.hpp"
 
 namespace sipplab::db::sqlite {
-namespace {
 
 // SQLite reads %, ? and # in a URI as syntax.
 std::string immutable_uri(const std::string& path) {
@@ -22,8 +21,6 @@ std::string immutable_uri(const std::string& path) {
   }
   return uri + "?immutable=1";
 }
-
-}  // namespace
 
 Connection::Connection(std::unique_ptr<Handle> handle) : handle_(std::move(handle)) {}
 Connection::Connection(Connection&& other) noexcept = default;
@@ -46,7 +43,7 @@ Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode 
   const std::string target = special ? "./" + name : name;
   switch (mode) {
     case OpenMode::kReadWrite:
-      return open(target, name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+      return open(target, name, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_URI);
     case OpenMode::kReadOnly:
       return open(target, name, SQLITE_OPEN_READONLY);
     case OpenMode::kImmutable:

@@ -19,6 +19,9 @@ namespace sipplab::db::sqlite {
 /// (one case), so a minute means that a program forgot to end a transaction.
 inline constexpr std::chrono::seconds kBusyTimeout{60};
 
+/// The name by which such a connection, or ATTACH, opens a file on read-only media.
+std::string immutable_uri(const std::string& path);
+
 enum class OpenMode {
   kReadWrite,  ///< the file is made if it is missing
   kReadOnly,

@@ -21,7 +21,7 @@ class Asking : public test::DatabaseTest {
     auto recorder = must(RunRecorder::begin(must(Database::open(file)), test::sample_run()));
     int index = 0;
     for (const ResultRow& row : rows) recorder.add(parameters, test::sample_instance(index++), row);
-    must(recorder.commit_case(parameters));
+    must(recorder.commit());
     must(recorder.finish(RunStatus::kFinished));
   }
   static ResultRow solved_in(std::int64_t milliseconds) {
@@ -68,7 +68,10 @@ TEST_F(Asking, cases_that_differ_in_one_option_are_two) {
   cases.push_back(new_option);
   ASSERT_GT(cases.size(), 18U);
   auto recorder = must(RunRecorder::begin(must(Database::open(file)), test::sample_run()));
-  for (const CaseInfo& parameters : cases) must(recorder.commit_case(parameters));
+  for (const CaseInfo& parameters : cases) {
+    recorder.add(parameters, test::sample_instance(0), test::sample_result(0));
+  }
+  must(recorder.commit());
   EXPECT_EQ(ask(file, "SELECT count(*) FROM case_"), std::to_string(cases.size()));
 }
 

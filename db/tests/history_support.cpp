@@ -26,7 +26,7 @@ std::string record_version(const std::filesystem::path& file, const Version& ver
     if (row.flowtime_s) row.flowtime_s = 1000 * version.factor;
     recorder.add(parameters, sample_instance(i), row);
   }
-  must(recorder.commit_case(parameters));
+  must(recorder.commit());
   const std::string uuid = recorder.run_uuid();
   must(recorder.finish(RunStatus::kFinished));
   return uuid;

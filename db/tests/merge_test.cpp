@@ -1,6 +1,9 @@
 // Merging: everything arrives, once, and says where it came from.
 #include "db/merge.hpp"
 
+#include <memory>
+
+#include "db/doctor.hpp"
 #include "db/measurements.hpp"
 #include "db/queries.hpp"
 #include "db/tests/history_support.hpp"
@@ -57,6 +60,79 @@ TEST_F(Merging, shards_become_one_history_that_knows_where_they_came_from) {
   EXPECT_EQ(ask(file, "SELECT origin FROM v_runs WHERE solved = 9"), second.string());
   EXPECT_EQ(ask(file, "SELECT count(*) FROM v_run_cells WHERE success_rate = 0.9 AND robots = 128"), "1");
   test::expect_sound(file);
+}
+
+/// A part of a sweep of twelve plannings of two cases, by a machine of its own.
+void record_part(const std::filesystem::path& part, const std::string& shard, const std::string& host,
+                 const std::vector<int>& positions) {
+  RunInfo info = test::sample_run();
+  info.uuid = "12345678-1234-4123-8123-123456789012";
+  info.shard = shard;
+  info.planned = 12;
+  info.machine.host = host;
+  auto recorder = must(RunRecorder::begin(must(Database::open(part, Journal::kRollback)), info));
+  for (const int robots : {64, 128}) {
+    for (const int position : positions) {
+      ResultRow row = test::sample_result(position);
+      row.position = position;
+      row.progress = {{0, 1, 9, 9, 1, 1}};
+      if (host == "slow") row.progress.push_back({1, 2, 8, 8, 1, 1});
+      recorder.add(test::sample_case(robots), test::sample_instance(position), row);
+    }
+  }
+  must(recorder.commit());
+  must(recorder.finish(RunStatus::kFinished));
+}
+
+TEST_F(Merging, parts_of_a_sweep_become_one_run) {
+  const char* state =
+      "SELECT (SELECT group_concat(status || '|' || shard || '|' || results || '|' || missing || '|' || "
+      "machines) FROM "
+      "v_sweeps) || ' ' || (SELECT group_concat(results || '/' || solved) FROM v_run_cells)";
+  record_part(first, "1/2", "host", {0, 2, 3});
+  record_part(second, "2/2", "slow", {1, 4, 5});
+  merge(first);
+  EXPECT_EQ(ask(file, state), "finished|1/2|6|6|1 3/3,3/3");
+  merge(second);
+  EXPECT_EQ(ask(file, state), "finished||12|0|2 6/6,6/6");
+  EXPECT_EQ(ask(file, "SELECT count(DISTINCT shard) || '|' || count(*) FROM v_attempts"), "2|2");
+  EXPECT_EQ(
+      ask(file,
+          "SELECT count(*) FROM result JOIN attempt ON attempt.id = attempt_id JOIN machine ON machine.id = "
+          "machine_id WHERE host = 'slow' AND position IN (1, 4, 5)"),
+      "6");
+  EXPECT_EQ(ask(file, "SELECT host FROM v_runs"), "host, slow");
+  EXPECT_TRUE(merge(first).added.empty());
+  EXPECT_TRUE(merge(second).added.empty());
+  EXPECT_EQ(ask(file, state), "finished||12|0|2 6/6,6/6");
+  test::expect_sound(file);
+  EXPECT_TRUE(examine(*std::make_unique<Database>(must(Database::open(file))), {}).sound());
+}
+
+TEST_F(Merging, a_sweep_of_which_a_part_is_missing_is_not_finished) {
+  const std::filesystem::path third = folder / "third.db";
+  record_part(first, "1/3", "host", {0, 1});
+  record_part(second, "2/3", "host", {2, 3});
+  record_part(third, "3/3", "host", {4, 5});
+  merge(first);
+  merge(third);
+  EXPECT_EQ(ask(file, "SELECT status || missing || machines FROM v_sweeps"), "aborted41");
+  merge(second);
+  EXPECT_EQ(ask(file, "SELECT status || missing || machines FROM v_sweeps"), "finished01");
+}
+
+TEST_F(Merging, a_planning_that_two_parts_hold_counts_once) {
+  record_part(first, "1/2", "host", {0, 1, 2, 3});
+  record_part(second, "1/2", "slow", {2, 3, 4, 5});
+  merge(first);
+  EXPECT_EQ(merge(second).rows_of("result"), 4);
+  EXPECT_EQ(ask(file, "SELECT sum(results) || '|' || (SELECT count(*) FROM result) FROM v_run_cells"),
+            "12|12");
+  // The curve of a planning is that of the attempt which the result is from.
+  EXPECT_EQ(ask(file, "SELECT group_concat(n) FROM (SELECT count(*) AS n FROM progress GROUP BY position)"),
+            "2,2,2,2,4,4");
+  test::expect_sound(file);
+  EXPECT_TRUE(examine(*std::make_unique<Database>(must(Database::open(file))), {}).sound());
 }
 
 TEST_F(Merging, twice_is_once) {

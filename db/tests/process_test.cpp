@@ -72,12 +72,12 @@ int record_without_end(RunRecorder& recorder, std::int64_t first, int results, i
     for (int i = 0; i < results; ++i) {
       recorder.add(parameters, test::sample_instance(i), test::sample_result(i));
     }
-    if (!recorder.commit_case(parameters)) return 1;
+    if (!recorder.commit()) return 1;
     if (write(pipe_end, "c", 1) != 1) return 1;
   }
 }
 
-TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
+TEST_F(Processes, a_killed_sweep_keeps_what_was_committed_and_is_resumed) {
   const int kills = from_environment("SIPPLAB_TEST_KILLS", 50);
   constexpr int kResults = 40;
   Random random{1};
@@ -92,7 +92,7 @@ TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
       close(ends[0]);
       auto database = Database::open(file);
       if (!database) return 1;
-      auto recorder = RunRecorder::resume(std::move(*database), uuid);
+      auto recorder = RunRecorder::resume(std::move(*database), uuid, sample_run());
       if (!recorder) return 1;
       return record_without_end(*recorder, finished, kResults, ends[1]);
     });
@@ -121,7 +121,7 @@ TEST_F(Processes, a_killed_sweep_keeps_its_finished_cases_and_is_resumed) {
   }
   EXPECT_GT(finished, 0) << "no case was finished before a kill: nothing was tested";
   auto database = must(Database::open(file));
-  const auto resumable = must(find_resumable_run(database, sample_run()));
+  const auto resumable = must(find_earlier_run(database, sample_run()));
   ASSERT_TRUE(resumable);
   EXPECT_EQ(resumable->uuid, uuid);
   EXPECT_EQ(resumable->status, RunStatus::kRunning);
@@ -144,7 +144,7 @@ TEST_F(Processes, eight_writers_and_two_readers_never_see_a_lock) {
         for (int i = 0; i < 20; ++i) {
           recorder->add(sample_case(robots), test::sample_instance(i), test::sample_result(i));
         }
-        if (!recorder->commit_case(sample_case(robots))) return 3;
+        if (!recorder->commit()) return 3;
       }
       return recorder->finish(RunStatus::kFinished) ? 0 : 4;
     }));
@@ -202,15 +202,15 @@ TEST_F(Processes, a_live_run_is_not_resumed_by_another_process) {
   char byte = 0;
   ASSERT_EQ(read(ends[0], &byte, 1), 1);
   auto database = must(Database::open(file));
-  EXPECT_FALSE(must(find_resumable_run(database, sample_run())));
+  EXPECT_TRUE(must(find_earlier_run(database, sample_run()))->being_written);
   const std::string uuid = ask(file, "SELECT uuid FROM run");
-  const auto refused = RunRecorder::resume(must(Database::open(file)), uuid);
+  const auto refused = RunRecorder::resume(must(Database::open(file)), uuid, sample_run());
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("is being written"), std::string::npos);
 
   writer.now();
-  EXPECT_TRUE(must(find_resumable_run(database, sample_run())));
-  EXPECT_TRUE(RunRecorder::resume(must(Database::open(file)), uuid));
+  EXPECT_FALSE(must(find_earlier_run(database, sample_run()))->being_written);
+  EXPECT_TRUE(RunRecorder::resume(must(Database::open(file)), uuid, sample_run()));
   close(ends[0]);
   close(ends[1]);
 }

@@ -76,7 +76,7 @@ class SchemaDocument : public test::DatabaseTest {
       const CaseInfo parameters = test::sample_case(64);
       recorder.add(parameters, test::sample_instance(0),
                    solved ? test::sample_result(0) : test::failed_result());
-      test::must(recorder.commit_case(parameters));
+      test::must(recorder.commit());
       runs.push_back(recorder.run_uuid());
     }
     record_a_property_run();
@@ -164,9 +164,9 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
 
 // Those that list runs, with the reason; those that are of no run; definitions of caches.
 const std::set<std::string> kWithExcludedRuns = {
-    "v_runs",        "v_property_runs",    "v_gate_runs",           "v_fuzz_runs",      "v_all_run_cells",
-    "v_all_results", "v_commits",          "v_all_measurements",    "v_all_gate_cells", "v_cases",
-    "v_findings",    "v_recomputed_cells", "v_recomputed_instances"};
+    "v_runs",           "v_sweeps",        "v_attempts",    "v_property_runs",    "v_gate_runs",
+    "v_fuzz_runs",      "v_all_run_cells", "v_all_results", "v_commits",          "v_all_measurements",
+    "v_all_gate_cells", "v_cases",         "v_findings",    "v_recomputed_cells", "v_recomputed_instances"};
 
 TEST_F(SchemaDocument, says_which_views_have_excluded_runs_and_no_other_has) {
   record_runs_of_all_kinds();

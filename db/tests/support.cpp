@@ -86,7 +86,7 @@ ResultRow failed_result() {
 
 void record_case(RunRecorder& recorder, const CaseInfo& parameters, int count) {
   for (int i = 0; i < count; ++i) recorder.add(parameters, sample_instance(i), sample_result(i));
-  must(recorder.commit_case(parameters));
+  must(recorder.commit());
 }
 
 std::string ask(const std::filesystem::path& file, const std::string& sql) {

@@ -107,7 +107,7 @@ InstanceInfo instance_info(std::int64_t number) {
 Recorded any_recorded() {
   Recorded recorded;
   recorded.parameters = any_case_info();
-  const auto results = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 5));
+  const auto results = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 5));
   for (int i = 0; i < results; ++i) {
     recorded.instances.push_back(instance_info(*rc::gen::inRange<std::int64_t>(0, 4)));
     recorded.rows.push_back(any_row());
@@ -166,7 +166,7 @@ std::string record(Database database, const RunInfo& info, const std::vector<Rec
     for (std::size_t i = 0; i < recorded.rows.size(); ++i) {
       recorder.add(recorded.parameters, recorded.instances[i], recorded.rows[i]);
     }
-    must(recorder.commit_case(recorded.parameters));
+    must(recorder.commit());
   }
   must(recorder.finish(RunStatus::kFinished));
   return recorder.run_uuid();
@@ -294,10 +294,10 @@ int main() {
       const std::string uuid = record(must(Database::open(path)), info, run);
       Database database = must(Database::open(path));
       check_run(database, uuid, info);
-      const std::vector<CaseInfo> cases = must(finished_cases(database, uuid));
+      const std::vector<RecordedCase> cases = must(recorded_cases(database, uuid));
       RC_ASSERT(cases.size() == run.size());
       for (std::size_t i = 0; i < run.size(); ++i) {
-        RC_ASSERT(cases[i] == run[i].parameters);
+        RC_ASSERT(cases[i].parameters == run[i].parameters);
         check_case(database, uuid, i, run[i]);
       }
       const bool thorough = *rc::gen::inRange(0, kThoroughOneIn) == 0;

@@ -74,12 +74,11 @@ InstanceInfo the_instance(int number) {
   return info;
 }
 
-void add_results(RunRecorder& recorder, int number, int results) {
-  for (int i = 0; i < results; ++i) {
-    ResultRow row;
-    row.position = i;
-    recorder.add(the_case(number), the_instance(i), row);
-  }
+/// The planning of one instance of a case.
+void add_planning(RunRecorder& recorder, int number, int position) {
+  ResultRow row;
+  row.position = position;
+  recorder.add(the_case(number), the_instance(position), row);
 }
 
 // --- interruptions ------------------------------------------------------------------
@@ -88,47 +87,59 @@ constexpr int kMostSessions = 3;
 
 /// What one start of a sweep gets done before it is interrupted.
 struct Session {
-  int cases = 0;            ///< that it finishes
+  int plannings = 0;        ///< that it commits
   bool begins_one = false;  ///< of which nothing may be kept
   bool aborted = false;     ///< ended by its user, else killed
 };
 
 Session any_session() {
-  return {*rc::gen::inRange(0, 4), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+  return {*rc::gen::inRange(0, 7), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
 }
 
 void ends_as_if_never_interrupted() {
   const NewHistory history;
   const fs::path path = history.path();
-  const int cases = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 8));
-  const int results = *rc::gen::inRange(0, 3);
+  const int cases = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 5));
+  const int instances = *rc::gen::inRange(1, 4);
+  std::set<std::pair<int, int>> left;
+  for (int number = 0; number < cases; ++number) {
+    for (int position = 0; position < instances; ++position) left.emplace(number, position);
+  }
   std::string uuid;
-  std::set<int> done;
   int sessions = 0;
   for (bool finished = false; !finished; ++sessions) {
     // The last one of many does all that is left.
-    const Session session = sessions < kMostSessions ? any_session() : Session{cases, false, false};
+    const Session session =
+        sessions < kMostSessions ? any_session() : Session{cases * instances, false, false};
     Database database = must(Database::open(path));
-    const auto found = must(find_resumable_run(database, the_run("smoke")));
+    const auto found = must(find_earlier_run(database, the_run("smoke")));
     RC_ASSERT(found.has_value() == (sessions > 0));
     if (found) {
       RC_ASSERT(found->uuid == uuid);
-      RC_ASSERT(found->finished_cases == done.size());
+      RC_ASSERT(static_cast<std::size_t>(found->results) + left.size() ==
+                static_cast<std::size_t>(cases * instances));
+      for (const RecordedCase& recorded : must(recorded_cases(database, uuid))) {
+        for (const ResultRow& row : recorded.rows) {
+          for (int number = 0; number < cases; ++number) {
+            const std::pair planning{number, static_cast<int>(row.position)};
+            RC_ASSERT(!(recorded.parameters == the_case(number) && left.count(planning) > 0));
+          }
+        }
+      }
     }
-    RunRecorder recorder = must(found ? RunRecorder::resume(std::move(database), uuid)
+    RunRecorder recorder = must(found ? RunRecorder::resume(std::move(database), uuid, the_run("smoke"))
                                       : RunRecorder::begin(std::move(database), the_run("smoke")));
     uuid = recorder.run_uuid();
-    int left = session.cases;
-    for (int number = 0; number < cases && left > 0; ++number) {
-      RC_ASSERT(recorder.is_finished(the_case(number)) == (done.count(number) > 0));
-      if (recorder.is_finished(the_case(number))) continue;
-      add_results(recorder, number, results);
-      must(recorder.commit_case(the_case(number)));
-      done.insert(number);
-      --left;
+    // In batches of any size, in which cases interleave.
+    for (int done = 0; done < session.plannings && !left.empty(); ++done) {
+      const auto next = std::next(left.begin(), *rc::gen::inRange(0, static_cast<int>(left.size())));
+      add_planning(recorder, next->first, next->second);
+      left.erase(next);
+      if (*rc::gen::arbitrary<bool>()) must(recorder.commit());
     }
-    if (session.begins_one) add_results(recorder, cases, 1);
-    finished = static_cast<int>(done.size()) == cases;
+    must(recorder.commit());
+    if (session.begins_one) add_planning(recorder, cases, 0);
+    finished = left.empty();
     if (finished) {
       must(recorder.finish(RunStatus::kFinished));
     } else if (session.aborted) {
@@ -140,14 +151,14 @@ void ends_as_if_never_interrupted() {
     }
   }
   Database database = must(Database::open(path));
-  RC_ASSERT(!must(find_resumable_run(database, the_run("smoke"))).has_value());
+  RC_ASSERT(must(find_earlier_run(database, the_run("smoke")))->status == RunStatus::kFinished);
   RC_ASSERT(ask(database, "SELECT count(*) FROM run") == 1);
-  RC_ASSERT(ask(database, "SELECT count(*) FROM v_results") == cases * results);
-  const std::vector<CaseInfo> kept = must(finished_cases(database, uuid));
-  RC_ASSERT(kept.size() == done.size());
-  for (int number = 0; number < cases; ++number) {
-    RC_ASSERT(std::count(kept.begin(), kept.end(), the_case(number)) == 1);
-  }
+  RC_ASSERT(ask(database, "SELECT count(*) FROM attempt") == sessions);
+  RC_ASSERT(ask(database, "SELECT count(*) FROM v_results") == cases * instances);
+  RC_ASSERT(ask(database,
+                "SELECT count(*) FROM cell WHERE result_count <> (SELECT count(*) FROM result "
+                "WHERE cell_id = cell.id)") == 0);
+  RC_ASSERT(must(recorded_cases(database, uuid)).size() == static_cast<std::size_t>(cases));
   RC_CLASSIFY(sessions > 1, "resumed");
 }
 
@@ -159,18 +170,11 @@ void resumes_only_its_like() {
     must(recorder.finish(RunStatus::kAborted));
   }
   RunInfo info = the_run("smoke");
-  const std::vector<std::string*> texts = {&info.suite,
-                                           &info.options,
-                                           &info.machine.host,
-                                           &info.machine.kernel,
-                                           &info.build.compiler,
-                                           &info.build.compiler_version,
-                                           &info.build.flags,
-                                           &info.build.build_type,
-                                           &info.build.sanitizers,
-                                           &info.build.binary_hash};
+  const std::vector<std::string*> texts = {
+      &info.suite,       &info.options,          &info.build.compiler,   &info.build.compiler_version,
+      &info.build.flags, &info.build.build_type, &info.build.sanitizers, &info.build.binary_hash};
   Database database = must(Database::open(path));
-  RC_ASSERT(must(find_resumable_run(database, info)).has_value());
+  RC_ASSERT(must(find_earlier_run(database, info)).has_value());
   const auto which = *rc::gen::inRange<std::size_t>(0, texts.size() + 3);
   if (which < texts.size()) {
     *texts[which] += " and more";
@@ -181,7 +185,7 @@ void resumes_only_its_like() {
   } else {
     must(exclude_run(database, "latest", "noise"));
   }
-  RC_ASSERT(!must(find_resumable_run(database, info)).has_value());
+  RC_ASSERT(!must(find_earlier_run(database, info)).has_value());
 }
 
 void has_one_writer() {
@@ -190,38 +194,37 @@ void has_one_writer() {
   RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
   const int before = *rc::gen::inRange(0, 3);
   for (int number = 0; number < before; ++number) {
-    add_results(recorder, number, 2);
-    must(recorder.commit_case(the_case(number)));
+    add_planning(recorder, number, 0);
+    must(recorder.commit());
   }
   Database other = must(Database::open(path));
   must(other.connection().execute("UPDATE run SET writer = writer || ', another one'", "taking over"));
-  add_results(recorder, before, 2);
-  RC_ASSERT(!recorder.commit_case(the_case(before)).has_value());
+  add_planning(recorder, before, 0);
+  RC_ASSERT(!recorder.commit().has_value());
   RC_ASSERT(!recorder.finish(RunStatus::kFinished).has_value());
-  RC_ASSERT(ask(other, "SELECT count(*) FROM v_results") == 2 * before);
+  RC_ASSERT(ask(other, "SELECT count(*) FROM v_results") == before);
   RC_ASSERT(ask(other, "SELECT count(*) FROM run WHERE status = 'running'") == 1);
 }
 
-void writes_cases_whole() {
+void writes_batches_whole() {
   const NewHistory history;
   const fs::path path = history.path();
   RunRecorder recorder = must(RunRecorder::begin(must(Database::open(path)), the_run("smoke")));
   std::int64_t expected = 0;
   int refused = 0;
-  for (int number = 0; number < 3; ++number) {
-    const int results = *rc::gen::inRange(0, 4);
-    add_results(recorder, number, results);
-    const bool twice = results > 0 && *rc::gen::arbitrary<bool>();
-    if (twice) add_results(recorder, number, 1);
-    RC_ASSERT(recorder.commit_case(the_case(number)).has_value() == !twice);
-    RC_ASSERT(recorder.is_finished(the_case(number)) == !twice);
+  for (int batch = 0; batch < 3; ++batch) {
+    const int plannings = *rc::gen::inRange(0, 5);
+    // Each batch has positions of its own, dealt out to two cases.
+    for (int i = 0; i < plannings; ++i) add_planning(recorder, i % 2, 10 * batch + i);
+    const bool twice = plannings > 0 && *rc::gen::arbitrary<bool>();
+    if (twice) add_planning(recorder, 0, 10 * batch);
+    RC_ASSERT(recorder.commit().has_value() == !twice);
     refused += twice;
-    if (!twice) expected += results;
+    if (!twice) expected += plannings;
     Database database = must(Database::open(path));
     RC_ASSERT(ask(database, "SELECT count(*) FROM result") == expected);
-    RC_ASSERT(must(finished_cases(database, recorder.run_uuid())).size() ==
-              static_cast<std::size_t>(number + 1 - refused));
-    if (twice) recorder.discard_case(the_case(number));
+    RC_ASSERT(ask(database, "SELECT ifnull(sum(results), 0) FROM cell_summary") == expected);
+    if (twice) recorder.discard();
   }
   RC_CLASSIFY(refused > 0, "some refused");
 }
@@ -267,9 +270,9 @@ void huge_counts_are_no_limit() {
   row.expansions = any_huge_count();
   row.generations = any_huge_count();
   recorder.add(info, the_instance(1), row);
-  must(recorder.commit_case(info));
+  must(recorder.commit());
   Database database = must(Database::open(path));
-  RC_ASSERT(must(finished_cases(database, recorder.run_uuid())) == std::vector<CaseInfo>{info});
+  RC_ASSERT(must(recorded_cases(database, recorder.run_uuid())).front().parameters == info);
   RC_ASSERT(static_cast<std::uint64_t>(ask(database, "SELECT expansions FROM result")) ==
             std::min(row.expansions, kNoCountLimit));
   RC_ASSERT(static_cast<std::uint64_t>(ask(database, "SELECT generations FROM result")) ==
@@ -366,7 +369,7 @@ int main() {
                      ends_as_if_never_interrupted);
   passed &= property("a run is resumed by its like only, and not once it is excluded", resumes_only_its_like);
   passed &= property("a run that another process took over is not written to", has_one_writer);
-  passed &= property("a case is recorded whole or not at all", writes_cases_whole);
+  passed &= property("a batch is recorded whole or not at all", writes_batches_whole);
   passed &= property("what is known of a commit's place in history is not forgotten", known_counts_stay);
   passed &=
       property("counts that SQL cannot hold are no limit, and none turns negative", huge_counts_are_no_limit);
