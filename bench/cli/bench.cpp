@@ -267,11 +267,13 @@ std::string suite_names() {
 void add_flags(CLI::App& command, BenchArguments& arguments) {
   CLI::Option* suite = command.add_option("--suite", arguments.suite, suite_names())
                            ->check([](const std::string& text) {
-                             return bench::find_suite(text) != nullptr
-                                        ? std::string()
-                                        : in_quotes(text) +
-                                              ", expected smoke, gate, density, mixed, paper, paper-quick, "
-                                              "adversarial, dense, anytime or scale";
+                             std::string names;
+                             for (const bench::Suite& known : bench::suites()) {
+                               if (known.name == text) return std::string();
+                               names +=
+                                   (names.empty() ? ", expected one of " : ", ") + std::string(known.name);
+                             }
+                             return in_quotes(text) + names;
                            })
                            ->capture_default_str();
   CLI::Option* folders =
@@ -281,11 +283,13 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   command
       .add_flag("--strict", arguments.strict, "refuse files of such a folder that are no instances, or equal")
       ->needs(folders);
-  add_values(command, "--radius", arguments.radii, "cells; of robots in MovingAI files and of the suite");
-  add_values(command, "--speed", arguments.speeds, "cells per second; likewise");
-  command.add_option("--map", arguments.map, "instead of the suite's maps; as `sipplab generate` takes it")
+  add_values(command, "--radius", arguments.radii,
+             "radius in cells of robots in MovingAI files and the suite");
+  add_values(command, "--speed", arguments.speeds, "speed in cells per second, likewise");
+  command
+      .add_option("--map", arguments.map, "map to use instead of the suite's; as `sipplab generate` takes it")
       ->excludes(folders);
-  command.add_option("--robots", arguments.robots, "instead of the suite's numbers: 16,32,64")
+  command.add_option("--robots", arguments.robots, "numbers of robots instead of the suite's: 16,32,64")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
   command.add_option("--count", arguments.count, "instances per case")
@@ -337,7 +341,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
 Command add_bench_command(CLI::App& program, const Invocation& invocation) {
   auto arguments = std::make_shared<BenchArguments>();
   arguments->invocation = invocation;
-  CLI::App* command = program.add_subcommand("bench", "run a density sweep and record it in the history");
+  CLI::App* command = program.add_subcommand("bench", "run a suite of cases and record it in the history");
   command->allow_extras();
   command->footer(
       "All --benchmark_* flags of Google Benchmark work as well: --benchmark_filter=REGEX,\n"

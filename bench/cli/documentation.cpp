@@ -120,7 +120,7 @@ std::string bash_completion(const CLI::App& program) {
 }  // namespace
 
 Command add_documentation_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("documentation", "writes the manual page or bash's completion");
+  CLI::App& command = *program.add_subcommand("documentation", "write the manual page or bash's completion");
   command.group("");  // for packages, not for people
   struct Arguments {
     std::string kind, file;

@@ -214,11 +214,10 @@ Command add_findings_command(CLI::App& program, const Invocation& invocation) {
   show->add_option("--svg", arguments->svg, "draw the planning case and its plan there")->type_name("FILE");
   CLI::App* replay =
       arguments->history.add_command(*findings, "replay",
-                                     "run the smallest inputs again; exit code 1 where one still breaks, 0 "
-                                     "where all hold, 3 where one was not run");
+                                     "run the smallest inputs again; exit code 1 if one still breaks, 0 if "
+                                     "all hold, 3 if one was not run");
   CLI::Option* id = replay->add_option("id", arguments->id, "as `sipplab findings list` shows it");
-  CLI::Option* all =
-      replay->add_flag("--all", arguments->all, "every finding, in place of an id")->excludes(id);
+  CLI::Option* all = replay->add_flag("--all", arguments->all, "all findings instead of one")->excludes(id);
   replay
       ->add_option("--programs", arguments->programs,
                    "folder of the replay programs; default: those of this build and of those beside it")

@@ -150,7 +150,7 @@ CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
       ->check(CLI::Range(1U, 4294967295U))
       ->capture_default_str();
   run->add_option("--workers", campaign.workers,
-                  "processes at a time: of one target in a nightly run, else of so many targets")
+                  "number of processes: of one target in a nightly run, else one per target")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   run->add_flag("--skip-known", campaign.skip_known,
@@ -162,18 +162,18 @@ CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
 
 Command add_fuzz_command(CLI::App& program) {
   auto arguments = std::make_shared<FuzzArguments>();
-  CLI::App* fuzz = program.add_subcommand("fuzz", "run the fuzz targets, and what they did");
+  CLI::App* fuzz = program.add_subcommand("fuzz", "run the fuzz targets and list their runs");
   fuzz->require_subcommand(1);
   CLI::App* run = add_run(*fuzz, *arguments);
   CLI::App* list = arguments->history.add_command(*fuzz, "list", "runs of targets, newest first");
   list->add_option("--target", arguments->target, "only this target");
   list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
   CLI::App* coverage = arguments->history.add_command(
-      *fuzz, "coverage", "take the coverage of the newest campaign into the history, and print it");
+      *fuzz, "coverage", "record the coverage of the newest campaign and print it");
   coverage->add_option("summary", arguments->summary, "what llvm-cov export -summary-only printed")
       ->required();
   CLI::App* hardest = arguments->history.add_command(
-      *fuzz, "hardest", "the cases of some folders that need most expansions per robot");
+      *fuzz, "hardest", "list the cases that need the most expansions per robot");
   hardest->add_option("folder", arguments->folders, "folders of cases")->required();
   hardest->add_option("--keep", arguments->keep, "this many, of different kinds")->capture_default_str();
   hardest->add_option("-o,--output", arguments->output, "write them there as 01.case, 02.case, ...")

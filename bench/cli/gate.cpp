@@ -234,7 +234,7 @@ void add_flags(CLI::App& command, GateArguments& arguments) {
 Command add_gate_command(CLI::App& program) {
   auto arguments = std::make_shared<GateArguments>();
   CLI::App* command =
-      program.add_subcommand("gate", "compare two builds on this machine, now: same plans, same speed?");
+      program.add_subcommand("gate", "compare two builds on this machine: same plans, same speed?");
   command->footer(
       "Exit codes: 0 equivalent or improved, 1 regressed, 3 inconclusive, 5 other plans and none worse for\n"
       "certain (0 with --expect-changes).");

@@ -63,10 +63,10 @@ void InstanceFlags::add_to(CLI::App& command) {
   const auto add_value = [&command](const char* flag, std::vector<std::string>& value, const char* words) {
     command.add_option(flag, value, words)->expected(1)->check(check_positive_real)->type_name("X");
   };
-  add_value("--radius", radius_, "cells; of robots in a .scen, which states none; default 0.5");
+  add_value("--radius", radius_, "radius in cells of robots in a .scen, which states none; default 0.5");
   add_value("--speed", speed_, "cells per second; likewise; default 1");
   command.add_flag("--allow-unreachable", files_.allow_unreachable,
-                   "take instances in which a goal cannot be reached");
+                   "accept instances in which a goal cannot be reached");
   command.option_defaults()->group("Options");
 }
 

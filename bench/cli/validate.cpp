@@ -152,7 +152,7 @@ Command add_validate_command(CLI::App& program) {
   command->add_option("--solution", arguments->solution, "solution (XML, JSON, CSV or plain lines)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default as the solution says")
+  command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default: the solution's")
       ->check(check_ssi)
       ->type_name("K");
   arguments->motion.add_to(*command, {OptionGroup::kMotion});

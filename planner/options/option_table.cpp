@@ -157,7 +157,7 @@ constexpr const char* kCounts = "a whole number >= 0 of 64 bits";
 std::vector<Option> make_rows() {
   return {
       intervals({.name = "ssi", .value = "K,...",
-                 .help = "start-safe interval, or inf; of several (5,9,15) each is tried if the one before fails",
+                 .help = "start-safe interval in seconds, or inf; 5,9,15 tries the next one if one fails",
                  .xml = "startsafeinterval", .json = "ssi", .column = "ssi_s",
                  .always_told = true, .is_list = true, .published = {{"inf", "infinity"}}}),
       word({.name = "order", .value = "ORDER", .help = "initial priority order",
