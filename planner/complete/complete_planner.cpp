@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "planner/complete/schedule.hpp"
+#include <algorithm>
+
 #include "planner/complete/start_order.hpp"
+#include "planner/core/assert.hpp"
 #include "planner/core/clock.hpp"
 #include "planner/core/tolerances.hpp"
+#include "planner/retime/unit_schedule.hpp"
 
 namespace sipplab {
 namespace {
@@ -73,10 +76,12 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
   Visits visits(search.steps, grid.size());
   search.steps.clear();
   visits.remove_round_trips();
-  const std::vector<ExactTime> arrivals = earliest_arrivals(grid, visits);
   const double unit_move_s = instance.agents.empty() ? 1 : 1 / instance.agents.front().speed_cells_per_s;
-  result.solution = timed_motions(grid, visits, arrivals, unit_move_s);
-  StartOrder kept = longest_kept_order(instance, visits, arrivals, options.ssi_s);
+  const double reach_cells = std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0);
+  UnitSchedule schedule = unit_schedule(grid, visits, reach_cells, unit_move_s);
+  PLANNER_ASSERT(schedule.circle.empty());  // rings do not turn in the search
+  result.solution = std::move(schedule.solution);
+  StartOrder kept = longest_kept_order(instance, visits, schedule.arrivals_s, options.ssi_s);
   result.order = std::move(kept.order);
   result.ssi_kept_s = kept.kept_s;
   return result;

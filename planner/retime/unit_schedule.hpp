@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "planner/complete/exact_time.hpp"
-#include "planner/complete/visits.hpp"
+#include "planner/retime/exact_time.hpp"
+#include "planner/retime/visits.hpp"
 #include "planner/solution/solution.hpp"
 
 namespace sipplab {
@@ -24,16 +24,25 @@ namespace sipplab {
 ///    has got there (and further), so D >= 2. Never binding, because the leader has to leave
 ///    that cell as well before the follower can be there.
 /// Two unit moves that share no cell are 1 apart at least, all the time, so that nothing
-/// else is to be kept. Smaller disks may follow closer; the same lags are safe for them.
+/// else is to be kept. Smaller disks follow closer in proportion, but for those that never bind.
 ExactTime follow_lag(Cell left, Cell entered);
 
-/// When each robot arrives at the cell of each visit, in times of a unit move: as early as
-/// the order of visits and follow_lag allow, by Visits' numbers. Visits that were taken out
-/// have time 0. O(visits).
-std::vector<ExactTime> earliest_arrivals(const FreeGrid& grid, const Visits& visits);
+/// Unit moves at the least times.
+struct UnitSchedule {
+  /// At the cell of each visit, by Visits' numbers; those of visits that were taken out mean nothing.
+  std::vector<double> arrivals_s;
+  /// Moves that go straight on without a wait are one motion.
+  Solution solution;
+  /// Visits that wait for each other, as LeastTimes::circle has them: robots follow each other in a ring that
+  /// they cannot turn. Nothing else is there then.
+  std::vector<VisitId> circle;
+};
 
-/// Motions at these times; moves that go straight on without a wait become one motion.
-Solution timed_motions(const FreeGrid& grid, const Visits& visits, const std::vector<ExactTime>& arrivals,
-                       double unit_move_s);
+/// As early as the order of visits to each cell and the lags of disks of this reach allow: with those of
+/// follow_lag, exactly, for a reach of 1, and with proportionally smaller ones, in doubles, below. That
+/// a visit waits for the one before at its cell is enough, since two lags are longer than any one. O(visits).
+/// REQUIRES: 0 < reach_cells <= 1; no robot visits a cell after one that stays there for ever.
+UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double reach_cells,
+                           double unit_move_s);
 
 }  // namespace sipplab
