@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "db/column_tags.hpp"
-#include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/table.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db {
 

@@ -9,8 +9,8 @@
 
 #include "db/column_tags.hpp"
 #include "db/database.hpp"
-#include "db/error.hpp"
 #include "db/fuzz_runs.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/table.hpp"
 
 namespace sipplab::db {

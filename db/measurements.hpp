@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
 #include "db/records.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db {
 

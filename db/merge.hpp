@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db {
 

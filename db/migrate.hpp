@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db {
 

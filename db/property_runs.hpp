@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
 #include "db/property_run.hpp"
 #include "db/records.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/table.hpp"
 
 namespace sipplab::db {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "db/columns.hpp"
-#include "db/error.hpp"
 #include "db/records.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/table.hpp"
 

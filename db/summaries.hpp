@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "db/error.hpp"
 #include "db/records.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/sqlite/statement.hpp"
 
 namespace sipplab::db {

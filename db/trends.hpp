@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
 #include "db/records.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/statistics/change_points.hpp"
 
 namespace sipplab::db {

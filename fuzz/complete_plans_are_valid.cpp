@@ -5,8 +5,8 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/complete/complete_planner.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/pebble_search.hpp"
+#include "sipplab/validator.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/generator/generator.hpp"
 #include "planner/instance/reachability.hpp"
+#include "sipplab/generator.hpp"
 
 namespace {
 

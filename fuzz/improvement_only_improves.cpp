@@ -7,7 +7,9 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/solve/solve.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/solve/plan.hpp"
+#include "sipplab/solve.hpp"
 
 namespace {
 

@@ -19,9 +19,8 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/io/load_instance.hpp"
-#include "planner/io/svg.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/svg.hpp"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/io/text.hpp"
-#include "planner/io/write_instance.hpp"
 #include "planner/io/xml_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace {
 

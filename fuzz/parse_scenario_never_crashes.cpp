@@ -9,7 +9,7 @@
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/io/movingai.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/io/solution_io.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/solution_io.hpp"
+#include "sipplab/validator.hpp"
 
 namespace {
 

@@ -14,10 +14,9 @@
 #include "planner/improve/static_times.hpp"
 #include "planner/instance/reachability.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/certify.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/steps_between.hpp"
 #include "property_tests/support/symmetry.hpp"
+#include "sipplab/validator.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
 #include "planner/grid/neighbourhood.hpp"
+#include "planner/prioritized/priority_order.hpp"
 #include "planner/solve/plan.hpp"
 #include "property_tests/support/order_rules.hpp"
 

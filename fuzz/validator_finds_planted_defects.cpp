@@ -9,12 +9,11 @@
 #include "fuzz/support/case_input.hpp"
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/target.hpp"
-#include "planner/io/svg.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/certify.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
 #include "property_tests/support/symmetry.hpp"
+#include "sipplab/svg.hpp"
+#include "sipplab/validator.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "db/fuzz_runs.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

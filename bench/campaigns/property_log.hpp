@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "db/property_runs.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

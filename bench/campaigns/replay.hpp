@@ -9,7 +9,7 @@
 
 #include "planner/io/plan_case.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab::bench {
 

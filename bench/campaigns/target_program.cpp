@@ -13,8 +13,8 @@
 #include "bench/interrupt.hpp"
 #include "bench/program.hpp"
 #include "planner/io/case_codec.hpp"
-#include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
+#include "sipplab/svg.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -34,6 +34,8 @@ struct BenchArguments {
   std::string planner_name;
   std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
   std::optional<std::string> rounding;
+  std::optional<std::string> solution_format;
+  bool retime = false;
   std::optional<std::string> shard;
   bool resume = false;
   std::optional<std::string> database;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "db/trends.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::cli {
 

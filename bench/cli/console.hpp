@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "planner/core/try.hpp"
-#include "planner/io/input_error.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::cli {
 

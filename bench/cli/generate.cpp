@@ -15,10 +15,10 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
-#include "planner/generator/generator.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::cli {
 namespace {

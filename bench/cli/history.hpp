@@ -7,7 +7,7 @@
 #include <string>
 
 #include "db/database.hpp"
-#include "db/error.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/table.hpp"
 
 namespace sipplab::cli {

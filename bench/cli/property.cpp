@@ -19,9 +19,9 @@
 #include "db/json_text.hpp"
 #include "db/property_runs.hpp"
 #include "planner/io/case_codec.hpp"
-#include "planner/io/svg.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/svg.hpp"
 
 namespace sipplab::cli {
 namespace {

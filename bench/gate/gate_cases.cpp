@@ -9,7 +9,7 @@
 #include "bench/judge/case_words.hpp"
 #include "planner/core/try.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench/gate/worker_process.hpp"
 #include "bench/sweep/expand.hpp"
 #include "bench/temporary_folder.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

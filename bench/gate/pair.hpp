@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bench/gate/gate_cases.hpp"
-#include "planner/core/expected.hpp"
 #include "planner/core/random.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "db/records.hpp"
-#include "planner/core/expected.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab::bench {
 

@@ -12,8 +12,8 @@
 #include "bench/gate/slowdown.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/run_instance.hpp"
-#include "planner/io/load_instance.hpp"
 #include "planner/solve/plan.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/gate/protocol.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

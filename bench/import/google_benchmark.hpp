@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "db/measurements.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

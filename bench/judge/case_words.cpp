@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bench/sweep/sweep_case.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab::bench {
 namespace {

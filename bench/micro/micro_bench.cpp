@@ -11,14 +11,14 @@
 
 #include "bench/sweep/run_info.hpp"
 #include "planner/core/random.hpp"
-#include "planner/generator/generator.hpp"
 #include "planner/geometry/collision_interval.hpp"
 #include "planner/grid/line_of_sight.hpp"
 #include "planner/grid/static_distances.hpp"
 #include "planner/reservation/reservation_table.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "db/error.hpp"
+#include "db/sqlite/error.hpp"
 #include "db/statistics/statistics.hpp"
 
 namespace sipplab::bench {

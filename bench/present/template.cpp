@@ -1,7 +1,7 @@
 #include "bench/present/template.hpp"
 
-#include "planner/core/assert.hpp"
 #include "planner/io/text.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

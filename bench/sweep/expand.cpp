@@ -10,7 +10,7 @@
 #include "planner/core/try.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/io/case_codec.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab::bench {
 namespace {

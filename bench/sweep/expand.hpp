@@ -9,7 +9,7 @@
 #include "bench/sweep/instance_set.hpp"
 #include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep_case.hpp"
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::bench {
 

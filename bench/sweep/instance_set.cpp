@@ -11,10 +11,10 @@
 
 #include "bench/sweep/run_info.hpp"
 #include "planner/core/try.hpp"
-#include "planner/generator/generator.hpp"
-#include "planner/io/load_instance.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "bench/sweep/suites.hpp"
 #include "db/records.hpp"
-#include "planner/core/expected.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab::bench {
 

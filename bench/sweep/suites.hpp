@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/instance/agent.hpp"
 #include "planner/options/option_table.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab::bench {
 

@@ -59,12 +59,13 @@ db::Result<db::Done> Recording::start() {
 }
 
 Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
-             std::optional<CommandPlanner> command)
+             std::optional<CommandPlanner> command, bool retimed)
     : recording_(std::move(recording)),
       repetitions_(repetitions),
       progress_(cases.cases.size(), instance_count(cases) * static_cast<std::size_t>(repetitions),
                 live_progress),
-      command_(std::move(command)) {
+      command_(std::move(command)),
+      retimed_(retimed) {
   sets_ = std::move(cases.sets);
   entries_ = entries_of(std::move(cases.cases));
 }
@@ -98,7 +99,7 @@ Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& pre
   }
   if (command_) return command_->run(prepared.instance, parameters.options);
   const PeakMemory memory;
-  db::ResultRow row = run_instance(prepared.instance, parameters.options);
+  db::ResultRow row = run_instance(prepared.instance, parameters.options, retimed_);
   row.peak_memory_bytes = memory.bytes();
   return row;
 }

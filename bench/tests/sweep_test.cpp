@@ -20,7 +20,8 @@
 #include "bench/sweep/peak_memory.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "bench/sweep/suites.hpp"
-#include "planner/generator/generator.hpp"
+#include "planner/solve/plan.hpp"
+#include "sipplab/generator.hpp"
 
 namespace sipplab::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "db/error.hpp"
+#include "db/sqlite/error.hpp"
 
 struct sqlite3;
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "db/error.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db::sqlite {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 
 struct sqlite3_stmt;
 

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "db/error.hpp"
 #include "db/sqlite/connection.hpp"
+#include "db/sqlite/error.hpp"
 
 namespace sipplab::db::sqlite {
 

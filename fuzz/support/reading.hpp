@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fuzz/support/claims.hpp"
-#include "planner/io/input_error.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::fuzz {
 

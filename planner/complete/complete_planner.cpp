@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "planner/complete/start_order.hpp"
-#include "planner/core/assert.hpp"
 #include "planner/core/clock.hpp"
 #include "planner/core/tolerances.hpp"
 #include "planner/retime/unit_schedule.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "planner/complete/lacam.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/options/options.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

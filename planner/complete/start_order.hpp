@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "planner/instance/instance.hpp"
+#include "planner/retime/exact_time.hpp"
 #include "planner/retime/visits.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

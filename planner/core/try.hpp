@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "planner/core/expected.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 template <class Error>

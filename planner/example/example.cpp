@@ -1,8 +1,8 @@
 // Plans four robots in the paper's warehouse, improves the plan, and asks the validator about it.
 #include <cstdio>
 
-#include "planner/generator/generator.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/solve.hpp"
 
 int main() {
   sipplab::GeneratorOptions wanted;

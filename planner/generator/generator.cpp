@@ -1,5 +1,5 @@
 // Robots placed at random: see generator.hpp.
-#include "planner/generator/generator.hpp"
+#include "sipplab/generator.hpp"
 
 #include <algorithm>
 #include <cmath>

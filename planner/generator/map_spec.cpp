@@ -3,10 +3,10 @@
 #include <numeric>
 #include <vector>
 
-#include "planner/generator/generator.hpp"
 #include "planner/generator/stream.hpp"
-#include "planner/io/load_instance.hpp"
 #include "planner/io/text.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/core/assert.hpp"
 #include "planner/core/tolerances.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

@@ -14,8 +14,8 @@
 #include <algorithm>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/geometry/interval.hpp"
 #include "planner/geometry/moving_disk.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

@@ -1,8 +1,7 @@
 // A disk in uniform straight motion, or at rest.
 #pragma once
 
-#include "planner/geometry/interval.hpp"
-#include "planner/geometry/vec2.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

@@ -1,4 +1,4 @@
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/grid_map.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/grid/cell.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

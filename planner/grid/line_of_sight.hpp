@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/core/assert.hpp"
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "planner/grid/cell.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

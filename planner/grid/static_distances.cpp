@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/geometry/interval.hpp"
 #include "planner/grid/neighbourhood.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 namespace {

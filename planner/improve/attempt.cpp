@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/improve/improve.hpp"
+#include "sipplab/improve.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -7,8 +7,9 @@
 
 #include "planner/core/parallel.hpp"
 #include "planner/improve/attempt.hpp"
+#include "planner/improve/static_times.hpp"
 #include "planner/prioritized/limits.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 namespace {

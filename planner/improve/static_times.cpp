@@ -6,9 +6,9 @@
 #include <queue>
 
 #include "planner/core/parallel.hpp"
-#include "planner/geometry/interval.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/grid/step_table.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 namespace {

@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "planner/grid/line_of_sight.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/improve.hpp"
 
 namespace sipplab {
-
-/// Lower bounds on the cost of any plan of the instance, in seconds.
-struct LowerBound {
-  double flowtime_s = 0;  ///< sum of the robots' static times
-  double makespan_s = 0;  ///< greatest of them
-};
 
 /// Pairs of cells looked at for one robot; about a hundredth of a second. On the paper's
 /// warehouse every robot needs less.
@@ -36,10 +30,6 @@ double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight,
 /// lengths of paths that exist, by robot. The same on any number of threads.
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
                                    const std::vector<double>& solo_cells, unsigned threads = 1);
-
-/// By how much a cost exceeds its lower bound, as a share of the cost: 0 is optimal; 0 if
-/// there is no cost.
-double gap(double cost_s, double bound_s);
 
 LowerBound lower_bound(const std::vector<double>& static_times_s);
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/core/assert.hpp"
 #include "planner/core/tolerances.hpp"
-#include "planner/instance/agent.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "planner/grid/cell.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

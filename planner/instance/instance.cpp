@@ -1,5 +1,5 @@
 // The rules an instance has to keep, and its hash; see instance.hpp.
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 #include <fmt/format.h>
 

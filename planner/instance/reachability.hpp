@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

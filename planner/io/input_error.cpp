@@ -1,5 +1,5 @@
-// Bad input as one line: see input_error.hpp.
-#include "planner/io/input_error.hpp"
+// Bad input as one line: see error.hpp.
+#include "sipplab/error.hpp"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/options/option_table.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -1,5 +1,5 @@
-// From files to an Instance: see load_instance.hpp.
-#include "planner/io/load_instance.hpp"
+// From files to an Instance: see instance_io.hpp.
+#include "sipplab/instance_io.hpp"
 
 #include <array>
 #include <filesystem>

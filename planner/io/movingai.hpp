@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
-#include "planner/instance/agent.hpp"
-#include "planner/io/input_error.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -4,8 +4,8 @@
 
 #include <iosfwd>
 
-#include "planner/instance/instance.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "planner/core/assert.hpp"
 #include "planner/io/json_options.hpp"
-#include "planner/io/solution_io.hpp"
 #include "planner/io/text.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/solution_io.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,13 +3,14 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/io/solution_parts.hpp"
+#include "planner/io/step_plan.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/write_xml.hpp"
 #include "planner/io/xml_options.hpp"
 #include "planner/io/xml_reader.hpp"
 #include "planner/io/xml_sections.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {
@@ -84,6 +85,9 @@ const char* implied_status(xml_node summary, const Instance& instance) {
 
 void read_summary(XmlReader& reader, xml_node summary, const Instance& instance, SolutionDocument& document) {
   document.planning_seconds = reader.optional_real(summary, "runtime", kTimes).value_or(0);
+  for (const char* const name : {"runtime", "time", "tries", "flowtime", "makespan"}) {
+    add_report(document, name, summary.attribute(name).value());
+  }
   document.makespan_s = reader.optional_real(summary, "makespan", kTimes);
   document.flowtime_s = reader.optional_real(summary, "flowtime", kTimes);
   document.tries = read_count(reader, summary, "tries");
@@ -148,6 +152,13 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
     }
     SectionOptions options{speed_of(reader, element, instance, position), true, nullptr};
     if (position < instance.agents.size()) options.robot = &instance.agents[position];
+    if (element.attribute("number")) {  // Continuous-CBS: robots have numbers, and cells rows and columns
+      options.names = kRowsAndColumns;
+      options.robot = nullptr;
+      if (position < instance.agents.size()) {
+        options.speed_cells_per_s = instance.agents[position].speed_cells_per_s;
+      }
+    }
     const pugi::xml_attribute id = element.attribute("id");
     Trajectory trajectory = read_sections(reader, path, options);
     std::optional<Cell> start;

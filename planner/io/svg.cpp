@@ -1,6 +1,6 @@
 // One picture of a solution: see svg.hpp. Robots and map are drawn in units of
 // cells inside a scaled group; title, legend and list of violations in pixels.
-#include "planner/io/svg.hpp"
+#include "sipplab/svg.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/io/svg_paint.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

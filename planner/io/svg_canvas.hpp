@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "planner/geometry/vec2.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

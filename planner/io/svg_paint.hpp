@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "planner/geometry/vec2.hpp"
-#include "planner/grid/grid_map.hpp"
 #include "planner/io/svg_canvas.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/geometry.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/io/svg_paint.hpp"
-#include "planner/solution/trajectory.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "planner/core/assert.hpp"
 #include "planner/core/number.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

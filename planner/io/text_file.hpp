@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/io/input_error.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

@@ -1,5 +1,5 @@
-// Instances as files: see write_instance.hpp.
-#include "planner/io/write_instance.hpp"
+// Instances as files: see instance_io.hpp.
+#include "sipplab/instance_io.hpp"
 
 #include "planner/io/text.hpp"
 #include "planner/io/write_xml.hpp"

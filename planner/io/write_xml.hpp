@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "planner/instance/instance.hpp"
 #include "planner/options/option_table.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "planner/io/input_error.hpp"
 #include "planner/io/instance_parts.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

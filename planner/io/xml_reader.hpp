@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/io/input_error.hpp"
 #include "planner/io/text.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

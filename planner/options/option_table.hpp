@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/options/options.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 
@@ -65,22 +65,6 @@ std::string text_of_published(const Option& option, std::string_view published);
 struct OptionValues {
   const Option* option = nullptr;
   std::vector<std::string> texts;
-};
-
-/// The options that a command line or a file states; all others are left open.
-class StatedOptions {
- public:
-  /// False, and nothing is stated, if the text is no value of the option.
-  bool state(const Option& option, std::string_view text);
-  bool states(std::string_view name) const;
-  bool empty() const { return stated_.empty(); }
-  /// The options with what was stated.
-  PlannerOptions applied_to(PlannerOptions options) const;
-
-  friend bool operator==(const StatedOptions&, const StatedOptions&) = default;
-
- private:
-  std::vector<std::pair<const Option*, std::string>> stated_;
 };
 
 }  // namespace sipplab

@@ -1,4 +1,4 @@
-#include "planner/options/options.hpp"
+#include "sipplab/options.hpp"
 
 #include <array>
 #include <charconv>

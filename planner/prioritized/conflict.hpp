@@ -2,8 +2,8 @@
 // searches respect, so that what a search found is in conflict with none of those that it was planned around.
 #pragma once
 
-#include "planner/instance/agent.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "planner/prioritized/partial_plan.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

@@ -2,8 +2,8 @@
 // robots that truly block it are planned again. Beyond [AY18], whose re-scheduling plans all robots again.
 #pragma once
 
-#include "planner/instance/instance.hpp"
-#include "planner/prioritized/plan_result.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 

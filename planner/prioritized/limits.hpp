@@ -2,8 +2,8 @@
 #pragma once
 
 #include "planner/core/clock.hpp"
-#include "planner/options/options.hpp"
-#include "planner/search/single_agent_planner.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/single_agent_planner.hpp"
 
 namespace sipplab {
 

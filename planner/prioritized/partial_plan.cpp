@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/prioritized/conflict.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

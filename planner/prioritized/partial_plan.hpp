@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/prioritized/priority_order.hpp"
 #include "planner/prioritized/start_guard.hpp"
 #include "planner/prioritized/start_precedence.hpp"
 #include "planner/reservation/reservation_table.hpp"
-#include "planner/search/single_agent_planner.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/single_agent_planner.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

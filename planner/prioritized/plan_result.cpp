@@ -1,4 +1,4 @@
-#include "planner/prioritized/plan_result.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 

@@ -1,9 +1,10 @@
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 #include <algorithm>
 #include <memory>
 
 #include "planner/prioritized/limits.hpp"
+#include "planner/prioritized/priority_order.hpp"
 #include "planner/prioritized/start_guard.hpp"
 #include "planner/search/sipp_search.hpp"
 

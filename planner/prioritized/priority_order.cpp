@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "planner/core/random.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
-
-/// Agents from highest to lowest priority, by input position.
-using PriorityOrder = std::vector<AgentIndex>;
 
 /// The order of the first try. `lengths_s` holds a lower bound on each agent's travel
 /// time. Ties by input position. O(n log n).

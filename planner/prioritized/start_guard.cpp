@@ -1,7 +1,7 @@
 #include "planner/prioritized/start_guard.hpp"
 
 #include "planner/instance/disk_lookup.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 

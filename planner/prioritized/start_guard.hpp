@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/reservation/reservation_table.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

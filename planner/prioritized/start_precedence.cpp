@@ -7,7 +7,7 @@
 
 #include "planner/geometry/collision_interval.hpp"
 #include "planner/instance/disk_lookup.hpp"
-#include "planner/options/options.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/prioritized/priority_order.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

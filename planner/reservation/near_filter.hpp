@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "planner/geometry/vec2.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

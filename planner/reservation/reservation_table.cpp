@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/core/assert.hpp"
 #include "planner/geometry/collision_interval.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {
@@ -33,6 +33,15 @@ double filter_margin(const GridMap& map) {
 }
 
 }  // namespace
+
+Askers askers_of(const Instance& instance, const MotionRules& rules) {
+  Askers askers{largest_radius_cells(instance) + rules.inflate_distance_cells, 0, rules.inflate_time_s};
+  for (const Agent& agent : instance.agents) {
+    askers.max_speed_cells_per_s = std::max(askers.max_speed_cells_per_s, agent.speed_cells_per_s);
+  }
+  if (instance.agents.empty()) askers.max_speed_cells_per_s = 1;
+  return askers;
+}
 
 ReservationTable::ReservationTable(const GridMap& map, const Askers& askers)
     : map_(map),
@@ -88,6 +97,12 @@ std::vector<ReservationTable::DiskId> ReservationTable::add(const Trajectory& tr
 
 void ReservationTable::add_keepout(Vec2 place, double radius_cells, Vec2 pardoned) {
   keepouts_.push_back({place, radius_cells, pardoned});
+}
+
+double ReservationTable::earliest_departure(Cell from, Cell to, double speed_cells_per_s, double radius_cells,
+                                            double from_s, double until_s) const {
+  const Move move(Displacement(centre(from), centre(to)), speed_cells_per_s);
+  return earliest_departure(move, radius_cells, from_s, until_s);
 }
 
 bool ReservationTable::is_kept_out(const Displacement& way, double radius_cells) const {

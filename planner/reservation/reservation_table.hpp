@@ -9,10 +9,11 @@
 
 #include "planner/core/arena.hpp"
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/grid/grid_map.hpp"
 #include "planner/reservation/safe_times.hpp"
 #include "planner/reservation/time_slices.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/single_agent_planner.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 
@@ -24,12 +25,15 @@ struct Askers {
   double time_margin_s = 0;
 };
 
+/// ... which are those of an instance.
+Askers askers_of(const Instance& instance, const MotionRules& rules = {});
+
 /// Disks in motion, found by place and time.
 ///
 /// They lie in slices of time, each as long as the fastest robot needs for two cells (TimeSlices): a query
 /// looks once into each slice that it meets. Slices only name candidates; the closed form of
 /// collision_interval.hpp decides.
-class ReservationTable {
+class ReservationTable final : public Reservations {
  public:
   using DiskId = std::uint32_t;
   static constexpr DiskId kNoDisk = UINT32_MAX;
@@ -57,22 +61,20 @@ class ReservationTable {
   void add_keepout(Vec2 place, double radius_cells, Vec2 pardoned);
   void clear_keepouts() { keepouts_.clear(); }
 
-  /// Maximal closed spans in which a disk of this radius may stay at the cell, in
-  /// order. Valid until a disk is added or removed, or another radius is asked for. O(1) for a few different
-  /// radii, unless a disk near the cell was removed since.
-  std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells) {
+  /// Valid until a disk is added or removed, or another radius is asked for. O(1) for a few different radii,
+  /// unless a disk near the cell was removed since.
+  std::span<const SafeInterval> safe_intervals(Cell cell, double radius_cells) override {
     if (!keepouts_.empty() && is_kept_out(Displacement(centre(cell), centre(cell)), radius_cells)) return {};
     return safe_times_.at(map_.index(cell), radius_cells, disks_);
   }
 
-  /// The least departure t >= from_s for which the move overlaps no disk. Gives up as soon as every departure
-  /// up to until_s is known to be unsafe and then returns some lower bound on the least safe departure that
-  /// is greater than until_s; kForever if no departure from from_s on is safe.
-  /// The last blocking disk is stored in `likely_blocker` and is checked first by the next query: callers
-  /// with similar moves pass the same variable, kNoDisk at first. The answer depends neither on it nor on the
-  /// order in which disks were added: it is the least time outside all open intervals of unsafe departures,
-  /// to the last bit.
-  /// REQUIRES: the move joins two different cell centres of the map.
+  double earliest_departure(Cell from, Cell to, double speed_cells_per_s, double radius_cells, double from_s,
+                            double until_s) const override;
+  /// The same for a move that is known already. The last blocking disk is stored in `likely_blocker` and is
+  /// checked first by the next query: callers with similar moves pass the same variable, kNoDisk at first.
+  /// The answer depends neither on it nor on the order in which disks were added: it is the least time
+  /// outside all open intervals of unsafe departures, to the last bit. REQUIRES: the move joins two different
+  /// cell centres of the map.
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s,
                             DiskId* likely_blocker = nullptr) const;
 

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "planner/core/assert.hpp"
 #include "planner/geometry/collision_interval.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "planner/core/arena.hpp"
-#include "planner/geometry/interval.hpp"
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/geometry.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

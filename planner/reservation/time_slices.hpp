@@ -9,8 +9,8 @@
 
 #include "planner/core/arena.hpp"
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/grid/grid_map.hpp"
 #include "planner/reservation/near_filter.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/instance/motion_rules.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

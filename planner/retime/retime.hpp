@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/core/expected.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/instance/motion_rules.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/error.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

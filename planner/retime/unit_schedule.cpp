@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "planner/core/assert.hpp"
 #include "planner/core/tolerances.hpp"
 #include "planner/retime/longest_paths.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {
@@ -35,6 +35,14 @@ struct RealClock {
   }
   bool is_later(double a, double b) const { return a > b + kUnitRounding; }
   double seconds(double time, double unit_move_s) const { return time * unit_move_s; }
+};
+
+/// And in steps.
+struct StepClock {
+  using Time = std::int64_t;
+  static constexpr std::int64_t kUnitMove = 1;
+  std::int64_t lag(Cell, Cell) const { return kUnitMove; }
+  bool is_later(std::int64_t a, std::int64_t b) const { return a > b; }
 };
 
 /// Visits as events: what each waits for.
@@ -134,6 +142,10 @@ UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double re
     return schedule_by(RealClock{reach_cells}, grid, visits, unit_move_s);
   }
   return schedule_by(ExactClock{}, grid, visits, unit_move_s);
+}
+
+std::vector<std::int64_t> unit_steps(const FreeGrid& grid, const Visits& visits) {
+  return least_times(VisitGraph<StepClock>(StepClock{}, grid, visits)).times;
 }
 
 }  // namespace sipplab

@@ -3,11 +3,12 @@
 // 2016 (MAPF-POST); here with the lags of disks in contact, and exact.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "planner/retime/exact_time.hpp"
 #include "planner/retime/visits.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 
@@ -44,5 +45,9 @@ struct UnitSchedule {
 /// REQUIRES: 0 < reach_cells <= 1; no robot visits a cell after one that stays there for ever.
 UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double reach_cells,
                            double unit_move_s);
+
+/// The step at which each visit begins, by Visits' numbers, if all robots step at once and one may enter a
+/// cell in the step in which another one leaves it. REQUIRES: as unit_schedule().
+std::vector<std::int64_t> unit_steps(const FreeGrid& grid, const Visits& visits);
 
 }  // namespace sipplab

@@ -9,7 +9,7 @@
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/grid/static_distances.hpp"
 #include "planner/grid/step_table.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -7,10 +7,9 @@
 
 #include "planner/core/arena.hpp"
 #include "planner/grid/heading.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/instance/motion_rules.hpp"
 #include "planner/search/sipp_node.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

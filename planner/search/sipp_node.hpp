@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "planner/geometry/interval.hpp"
-#include "planner/grid/cell.hpp"
+#include "sipplab/geometry.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

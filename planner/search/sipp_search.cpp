@@ -70,11 +70,12 @@ Sipp<Motion>::Sipp(const Instance& instance, SippOptions options)
 }
 
 template <class Motion>
-Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, ReservationTable& reservations,
+Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, Reservations& reservations,
                                                      const SearchLimits& limits,
                                                      SearchStatistics& statistics) {
   statistics_ = &statistics;
-  begin(instance_.agents[agent], reservations);
+  // No virtual call in the loop.
+  begin(instance_.agents[agent], static_cast<ReservationTable&>(reservations));
   const CellNodes goals = nodes_of(agent_->goal);
   const CellNodes starts = nodes_of(agent_->start);
   if (goals.first == goals.last || starts.first == starts.last) return Unexpected{PlanFailure::kNoPath};

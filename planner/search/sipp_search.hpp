@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "planner/reservation/reservation_table.hpp"
 #include "planner/search/body.hpp"
 #include "planner/search/motion.hpp"
 #include "planner/search/open_list.hpp"
-#include "planner/search/single_agent_planner.hpp"
+#include "sipplab/single_agent_planner.hpp"
 
 namespace sipplab {
 
@@ -35,12 +36,13 @@ struct SippOptions {
 template <class Motion>
 class Sipp final : public SingleAgentPlanner {
  public:
-  /// The instance must outlive the search. REQUIRES: !find_error(instance).
+  /// The instance must outlive the search, whose reservations are those of a ReservationTable. REQUIRES:
+  /// !find_error(instance).
   Sipp(const Instance& instance, SippOptions options);
 
   /// Turns are separate motions in the trajectory, each right after the arrival. The last one is to the goal
   /// heading; the robot has arrived when it ends.
-  Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
+  Expected<Trajectory, PlanFailure> plan(AgentIndex agent, Reservations& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override;
 
   /// Counts travelling, turning and standing, as if the robot were alone on an empty map.

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "planner/grid/cell.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -1,5 +1,5 @@
 // What a solution costs, and its hash; see solution.hpp.
-#include "planner/solution/solution.hpp"
+#include "sipplab/solution.hpp"
 
 #include <algorithm>
 

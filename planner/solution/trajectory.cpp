@@ -1,5 +1,5 @@
 // What a motion is, however it is written down; see trajectory.hpp.
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/solution.hpp"
 
 #include <algorithm>
 #include <cmath>

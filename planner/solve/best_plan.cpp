@@ -7,8 +7,9 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/limits.hpp"
-#include "planner/solution/solution.hpp"
-#include "planner/solve/solve.hpp"
+#include "planner/solve/plan.hpp"
+#include "sipplab/solution.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,30 +3,9 @@
 // time is over.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
-#include "planner/improve/objective.hpp"
-#include "planner/instance/instance.hpp"
-#include "planner/prioritized/plan_result.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab {
-
-struct SolveResult;
-
-/// A step of best_plan() that was taken.
-struct BestStep {
-  enum class Kind { kMethod, kEscalation, kEjection, kFallback };
-  Kind kind = Kind::kMethod;
-  double ssi_s = 0;
-  PlanStatus status = PlanStatus::kFailed;
-  std::size_t tries = 0;
-  double seconds = 0;            ///< wall clock that it took
-  double ended_s = 0;            ///< wall clock since the first step began
-  std::optional<PlanCost> cost;  ///< of its plan, if it gave one
-};
-/// "method", "escalation", "ejection", "fallback".
-std::string_view name(BestStep::Kind kind);
 
 /// Steps:
 ///  (1) the complete planner, if it can plan such instances: a plan in hand within

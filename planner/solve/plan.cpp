@@ -6,7 +6,7 @@
 #include "planner/complete/complete_planner.hpp"
 #include "planner/core/clock.hpp"
 #include "planner/prioritized/ejection.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 namespace {

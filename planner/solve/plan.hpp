@@ -2,8 +2,8 @@
 // fallback.
 #pragma once
 
-#include "planner/instance/instance.hpp"
-#include "planner/prioritized/plan_result.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 

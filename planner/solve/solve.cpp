@@ -1,6 +1,8 @@
-#include "planner/solve/solve.hpp"
+#include "sipplab/solve.hpp"
 
 #include "planner/complete/complete_planner.hpp"
+#include "planner/solve/best_plan.hpp"
+#include "planner/solve/plan.hpp"
 
 namespace sipplab {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/instance/agent.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 namespace {

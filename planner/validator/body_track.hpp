@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "planner/solution/trajectory.hpp"
 #include "planner/validator/closest_approach.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

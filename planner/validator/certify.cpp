@@ -1,5 +1,5 @@
-// Pairs of bodies in interval arithmetic; see certify.hpp.
-#include "planner/validator/certify.hpp"
+// Pairs of bodies in interval arithmetic; see validator.hpp.
+#include "sipplab/validator.hpp"
 
 #include <algorithm>
 #include <cmath>

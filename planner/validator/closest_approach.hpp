@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "planner/geometry/vec2.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/core/assert.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {

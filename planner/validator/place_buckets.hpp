@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
 #include "planner/validator/body_track.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
 #include "planner/validator/body_track.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

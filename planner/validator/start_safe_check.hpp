@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "planner/instance/instance.hpp"
 #include "planner/validator/body_track.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

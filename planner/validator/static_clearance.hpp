@@ -1,8 +1,8 @@
 // How deep a moving disk overlaps blocked cells, or the outside of the grid.
 #pragma once
 
-#include "planner/geometry/vec2.hpp"
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/geometry.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

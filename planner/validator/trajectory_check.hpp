@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "planner/instance/instance.hpp"
-#include "planner/solution/trajectory.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 

@@ -1,5 +1,5 @@
 // The verdict on a solution: one check after another; see validator.hpp.
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Methods tried one after the other: escalation of start-safe intervals, and the best plan
 // that can be had.
-#include "planner/solve/solve.hpp"
+#include "sipplab/solve.hpp"
 
 #include <rapidcheck.h>
 
@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "planner/complete/complete_planner.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

@@ -1,5 +1,5 @@
 // The certifying mode: what it proves is so, and it agrees with the validator.
-#include "planner/validator/certify.hpp"
+#include "sipplab/validator.hpp"
 
 #include <rapidcheck.h>
 
@@ -13,7 +13,6 @@
 #include "planner/solve/plan.hpp"
 #include "planner/validator/body_track.hpp"
 #include "planner/validator/enclosure.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"

@@ -8,10 +8,10 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/pebble_search.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

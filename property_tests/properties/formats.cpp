@@ -10,17 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "planner/io/load_instance.hpp"
 #include "planner/io/movingai.hpp"
-#include "planner/io/solution_io.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
 #include "planner/io/xml_instance.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
 #include "property_tests/support/texts.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/solution_io.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,5 +1,5 @@
 // Generated instances: problems that can be posed, of which each is another.
-#include "planner/generator/generator.hpp"
+#include "sipplab/generator.hpp"
 
 #include <rapidcheck.h>
 

@@ -1,6 +1,6 @@
 // Large neighbourhood search: what it gives is never worse than what it was given, as right,
 // keeps the same promise, and depends on no clock.
-#include "planner/improve/improve.hpp"
+#include "sipplab/improve.hpp"
 
 #include <rapidcheck.h>
 
@@ -9,11 +9,12 @@
 
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/improve/attempt.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/improve/static_times.hpp"
 #include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 namespace sipplab {
 

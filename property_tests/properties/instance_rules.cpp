@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "planner/instance/disk_lookup.hpp"
-#include "planner/instance/instance.hpp"
 #include "planner/instance/reachability.hpp"
-#include "planner/solution/solution.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 namespace {

@@ -12,13 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "planner/io/load_instance.hpp"
 #include "planner/io/movingai.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab {
 namespace {

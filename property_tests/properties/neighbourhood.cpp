@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
 #include "planner/grid/static_distances.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exhaustive_search.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 namespace {

@@ -8,10 +8,10 @@
 #include "planner/core/tolerances.hpp"
 #include "planner/instance/reachability.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

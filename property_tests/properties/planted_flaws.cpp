@@ -11,11 +11,11 @@
 #include <tuple>
 #include <vector>
 
-#include "planner/options/options.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

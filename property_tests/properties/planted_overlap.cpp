@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scene_maker.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

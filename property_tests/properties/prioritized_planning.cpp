@@ -1,7 +1,7 @@
 // Every robot of every try against an exhaustive search for it alone, among the robots
 // that were planned before it and the starts of those that were not. [AY18], section 3.
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/solve/plan.hpp"
+#include "sipplab/prioritized_planner.hpp"
 
 #include <rapidcheck.h>
 
@@ -165,7 +165,7 @@ class ComparedSearch : public SingleAgentPlanner {
         search_(search_of(posed.plan_case)),
         planned_(instance_.agents.size()) {}
 
-  Expected<Trajectory, PlanFailure> plan(AgentIndex agent, ReservationTable& reservations,
+  Expected<Trajectory, PlanFailure> plan(AgentIndex agent, Reservations& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override {
     const SearchStatistics before = statistics;
     auto trajectory = search_->plan(agent, reservations, limits, statistics);

@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

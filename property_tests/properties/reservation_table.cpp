@@ -231,6 +231,9 @@ int agrees_with_plain_twin(Filled& filled, const std::vector<Query>& queries) {
         filled.table().earliest_departure(move, query.radius, query.from_s, query.until_s);
     const double plain_s = filled.twin().earliest_departure(move, query.radius, query.from_s, query.until_s);
     RC_LOG() << query << std::endl;
+    const Reservations& asked = filled.table();
+    RC_ASSERT(asked.earliest_departure(query.from, query.to, query.speed, query.radius, query.from_s,
+                                       query.until_s) == indexed_s);
     if (indexed_s > query.until_s && plain_s > query.until_s) continue;
     RC_ASSERT(indexed_s == plain_s);
     delayed += indexed_s > query.from_s;

@@ -13,11 +13,10 @@
 #include "planner/complete/complete_planner.hpp"
 #include "planner/retime/retime.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/certify.hpp"
 #include "planner/validator/closest_approach.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

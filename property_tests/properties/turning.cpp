@@ -10,14 +10,14 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/grid/heading.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/steps_between.hpp"
 #include "property_tests/support/symmetry.hpp"
+#include "sipplab/prioritized_planner.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,6 +1,6 @@
 // The validator against the slow and obvious model, and against itself seen from
 // elsewhere.
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 #include <rapidcheck.h>
 
@@ -12,11 +12,11 @@
 #include <tuple>
 
 #include "planner/core/tolerances.hpp"
-#include "planner/options/options.hpp"
 #include "planner/validator/separation.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
+#include "sipplab/options.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,7 +3,7 @@
 // Multiple Mobile Robots", doi:10.1109/TASE.2015.2445780.
 #pragma once
 
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -3,7 +3,7 @@
 
 #include <rapidcheck.h>
 
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 

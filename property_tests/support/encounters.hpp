@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/grid/cell.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/grid_map.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/grid/grid_map.hpp"
 #include "property_tests/support/exact_line_of_sight.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

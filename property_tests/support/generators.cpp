@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/core/tolerances.hpp"
+#include "planner/options/option_table.hpp"
 #include "property_tests/support/case_shrinker.hpp"
 
 namespace sipplab {

@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "planner/geometry/interval.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

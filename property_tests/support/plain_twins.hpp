@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/geometry/moving_disk.hpp"
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 

@@ -1,8 +1,8 @@
 // The slow and obvious model of "too close": look at both bodies at many times.
 #pragma once
 
-#include "planner/geometry/vec2.hpp"
-#include "planner/solution/trajectory.hpp"
+#include "sipplab/geometry.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "planner/grid/grid_map.hpp"
+#include "sipplab/grid_map.hpp"
 
 namespace sipplab {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "planner/instance/instance.hpp"
-#include "planner/solution/solution.hpp"
+#include "sipplab/instance.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/geometry/interval.hpp"
 #include "property_tests/support/distance_oracle.hpp"
+#include "sipplab/geometry.hpp"
 
 namespace sipplab {
 

@@ -9,7 +9,7 @@
 
 #include "planner/retime/exact_time.hpp"
 #include "planner/retime/unit_schedule.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "planner/generator/generator.hpp"
 #include "planner/instance/reachability.hpp"
+#include "sipplab/generator.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,5 +1,5 @@
 // The rules of an instance, one planted mistake after another, and its name.
-#include "planner/instance/instance.hpp"
+#include "sipplab/instance.hpp"
 
 #include <gtest/gtest.h>
 

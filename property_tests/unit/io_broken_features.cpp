@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "planner/instance/instance.hpp"
 #include "planner/io/xml_instance.hpp"
+#include "sipplab/instance.hpp"
 
 namespace sipplab {
 namespace {

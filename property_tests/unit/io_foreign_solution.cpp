@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/io/solution_io.hpp"
+#include "sipplab/solution_io.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,5 +1,5 @@
 // Files joined to an instance: formats told from content, combinations, complaints.
-#include "planner/io/load_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "planner/io/text_file.hpp"
-#include "planner/io/write_instance.hpp"
 
 namespace sipplab {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/io/write_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "planner/io/load_instance.hpp"
-#include "planner/io/solution_io.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/instance_io.hpp"
+#include "sipplab/solution_io.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

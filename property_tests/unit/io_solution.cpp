@@ -1,5 +1,5 @@
 // Solutions as XML, JSON and CSV, out and in. Those of other planners: io_foreign_solution.cpp.
-#include "planner/io/solution_io.hpp"
+#include "sipplab/solution_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/grid/heading.hpp"
-#include "planner/io/write_instance.hpp"
 #include "planner/io/xml_instance.hpp"
+#include "sipplab/instance_io.hpp"
 
 namespace sipplab {
 namespace {

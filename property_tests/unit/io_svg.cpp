@@ -1,5 +1,5 @@
 // The picture of a solution: well-formed, complete, and bounded however much is drawn.
-#include "planner/io/svg.hpp"
+#include "sipplab/svg.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "planner/generator/generator.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/options/option_table.hpp"
-#include "planner/solve/solve.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/solve.hpp"
 
 namespace sipplab {
 namespace {

@@ -1,5 +1,5 @@
 // Costs and names of solutions.
-#include "planner/solution/solution.hpp"
+#include "sipplab/solution.hpp"
 
 #include <gtest/gtest.h>
 

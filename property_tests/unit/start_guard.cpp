@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "planner/io/case_codec.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
+#include "planner/reservation/reservation_table.hpp"
 #include "planner/solve/plan.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/prioritized_planner.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

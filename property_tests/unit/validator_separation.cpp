@@ -7,7 +7,7 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/validator/separation.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

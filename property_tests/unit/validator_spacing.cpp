@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/extremes.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/options/options.hpp"
-#include "planner/validator/validator.hpp"
+#include "sipplab/options.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

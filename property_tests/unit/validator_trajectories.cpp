@@ -6,8 +6,8 @@
 
 #include "planner/core/tolerances.hpp"
 #include "planner/io/case_codec.hpp"
-#include "planner/validator/validator.hpp"
 #include "property_tests/support/extremes.hpp"
+#include "sipplab/validator.hpp"
 
 namespace sipplab {
 namespace {

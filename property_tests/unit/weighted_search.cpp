@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planner/generator/generator.hpp"
 #include "planner/grid/static_distances.hpp"
-#include "planner/prioritized/prioritized_planner.hpp"
 #include "planner/search/sipp_search.hpp"
-#include "planner/solution/solution.hpp"
 #include "planner/solve/plan.hpp"
+#include "sipplab/generator.hpp"
+#include "sipplab/prioritized_planner.hpp"
+#include "sipplab/solution.hpp"
 
 namespace sipplab {
 namespace {

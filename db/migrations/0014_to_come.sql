@@ -1,0 +1,2 @@
+-- Stands in for schema 14 until it comes.
+SELECT 14;

@@ -1,0 +1,2 @@
+-- Stands in for schema 15 until it comes.
+SELECT 15;
