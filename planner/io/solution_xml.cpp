@@ -169,6 +169,10 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
     if (!problem.empty()) return reader.fail(element, problem, "one <agent> for each robot of the instance");
   }
   if (position == 0 && document.status != "solved") return;
+  if (position == 0 && log.parent().child("agent").attribute("start_i")) {
+    document.status = "failed";  // how Continuous-CBS says that it found none
+    return;
+  }
   if (const auto missing = collector.missing()) {
     return reader.fail(log, "no <agent> for robot " + in_quotes(instance.agents[*missing].id),
                        "one for each robot of the instance");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "planner/grid/free_grid.hpp"
 #include "planner/io/csv_text.hpp"
@@ -47,7 +48,12 @@ std::pair<std::string, int> read_moves(std::string_view text, const Instance& in
                                        StepPlan& plan) {
   std::size_t robot = 0;
   LineScanner lines(text);
-  const auto next_line = [&] { return text.empty() ? std::optional<std::string_view>("") : lines.next(); };
+  // Lines are separated, not ended: a last one of a robot that never moves is empty.
+  bool has_last = text.empty() || text.back() == '\n';
+  const auto next_line = [&]() -> std::optional<std::string_view> {
+    if (const auto line = lines.next()) return line;
+    return std::exchange(has_last, false) ? std::optional<std::string_view>("") : std::nullopt;
+  };
   for (; robot < plan.robots(); ++robot) {
     const auto text_of_robot = next_line();
     if (!text_of_robot) return {"moves of " + std::to_string(robot) + " robots", std::max(1, lines.line())};

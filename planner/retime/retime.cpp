@@ -95,6 +95,16 @@ RingMember member_of(const Instance& instance, std::size_t course, Cell from, Ce
 
 Cell cell_of(Vec2 place) { return {static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y)}; }
 
+/// The least first, for a text that does not depend on where the ring was entered.
+void turn_ring(std::vector<RingMember>& ring) {
+  std::rotate(ring.begin(),
+              std::min_element(ring.begin(), ring.end(),
+                               [](const RingMember& a, const RingMember& b) {
+                                 return a.is_obstacle != b.is_obstacle ? b.is_obstacle : a.agent < b.agent;
+                               }),
+              ring.end());
+}
+
 /// One member for each body, at its first move of the circle.
 std::vector<RingMember> ring_of(const Instance& instance, const std::vector<Course>& courses,
                                 const std::vector<EventId>& first, const std::vector<EventId>& circle) {
@@ -110,6 +120,7 @@ std::vector<RingMember> ring_of(const Instance& instance, const std::vector<Cour
     };
     if (std::none_of(ring.begin(), ring.end(), is_same)) ring.push_back(member);
   }
+  turn_ring(ring);
   return ring;
 }
 
@@ -195,6 +206,7 @@ Expected<RetimeResult, std::string> retime(const Instance& instance, const Solut
     result.ring.push_back(
         {visit.robot, false, grid.cell((*visits)[visit.before].cell), grid.cell(visit.cell)});
   }
+  turn_ring(result.ring);
   return result;
 }
 
