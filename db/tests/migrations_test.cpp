@@ -71,7 +71,10 @@ TEST_F(Migrations, those_that_were_released_do_not_change) {
                                                  {10, 0x15550d08521d0194},
                                                  {11, 0x8c4ef970db956e9b},
                                                  {12, 0x6896b0d9752fbfc9},
-                                                 {13, 0x8ec36830ccfe2123}};
+                                                 {13, 0x8ec36830ccfe2123},
+                                                 {14, 0x12482079fd9aff04},
+                                                 {15, 0x37b1881a01bdecf0},
+                                                 {16, 0xcf0b35d70988092a}};
   int expected = released.begin()->first;
   for (const Migration& step : migrations()) {
     EXPECT_EQ(step.version, expected++) << step.name;
