@@ -218,6 +218,7 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
         flags.format.empty() ? nullptr : benchmark::CreateDefaultDisplayReporter();
     bench::RecordingReporter reporter(sweep, shown);
     benchmark::RunSpecifiedBenchmarks(&reporter, std::string("."));
+    benchmark::ClearRegisteredBenchmarks();  // they refer to this sweep, and another may follow
   }
   sweep.end();
   return report(arguments, flags, sweep, info.suite, path.string());

@@ -265,6 +265,37 @@ expect 0 planners
 says 'lacam3 .*LaCAM3'
 says 'tracker-csv '
 
+# Planners side by side: this one, and one that is named; as a table and as a page.
+mkdir paper
+"$sipplab" generate --map empty:9x9 --agents 4 --count 2 --seed 5 -o paper >/dev/null
+cat >fake_lacam <<'E2'
+#!/bin/sh
+for word; do last=$word; done
+"$sipplab" plan --task "$4" --method complete --format tracker -o moves.csv && exec python3 - "$4" "$last" <<'E3'
+import csv, re, sys
+starts = [tuple(map(int, line.split('\t')[4:6])) for line in open(sys.argv[1]) if '\t' in line]
+plan = list(csv.DictReader(open('moves.csv')))[0]['solution_plan'].split('\n')
+by = {'r': (1, 0), 'l': (-1, 0), 'u': (0, 1), 'd': (0, -1), 'w': (0, 0)}
+ways = []
+for (x, y), moves in zip(starts, plan):
+    way = [(x, y)]
+    for run, letter in re.findall(r'(\d*)(\w)', moves):
+        way += [(way[-1][0] + by[letter][0] * i, way[-1][1] + by[letter][1] * i) for i in range(1, int(run or 1) + 1)]
+    ways.append(way)
+with open(sys.argv[2], 'w') as out:
+    out.write('solved=1\nsolution=\n')
+    for step in range(max(map(len, ways))):
+        out.write('%d:%s\n' % (step, ''.join('(%d,%d),' % way[min(step, len(way) - 1)] for way in ways)))
+E3
+E2
+chmod +x fake_lacam
+expect 0 reproduce solvers --planner "lacam:$work/fake_lacam" --instances paper --no-suite --time-limit 30 --db side.db -o side
+says '^[^ ]*paper +4 +cmd:lacam +2 +[0-2] +2 +0 +1 '
+says '^[^ ]*paper +4 +sipplab'
+[ -s side/index.html ] || complain 'no page of planners side by side'
+grep -q '<td>cmd:lacam</td>' side/index.html || complain 'the page does not name the planner'
+ls side/success-*.svg side/seconds-*.svg >/dev/null 2>&1 || complain 'no pictures of planners side by side'
+
 # What another program says of its run is kept, under its own names.
 planner talker <<'E2'
 printf 'solved=1\nsoc_lb=3\nsolution=\n0:' >"$3"

@@ -27,6 +27,20 @@ std::string write_lmrp_yaml(const Instance& instance) {
   return text;
 }
 
+std::string write_ccbs_map(const GridMap& map) {
+  pugi::xml_document document;
+  pugi::xml_node node = document.append_child("root").append_child("map");
+  add_text(node, "height", std::to_string(map.height()));
+  add_text(node, "width", std::to_string(map.width()));
+  pugi::xml_node grid = node.append_child("grid");
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    std::string row;
+    for (std::int32_t x = 0; x < map.width(); ++x) row += map.is_blocked({x, y}) ? " 1" : " 0";
+    add_text(grid, "row", row.substr(1));
+  }
+  return file_text(document);
+}
+
 std::string write_ccbs_task(const Instance& instance) {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("root");

@@ -50,7 +50,8 @@ constexpr SolutionReader kReaders[] = {
     {"lacam", "result text of LaCAM, LaCAM2, LaCAM3 and PIBT"},
     {"paths", "Agent 0: (3,4)->(3,5)->, rows or columns first, as they fit"},
     {"eecbs", "the same, rows first: EECBS, CBSH2-RTC, PBS"},
-    {"mapf-lns2", "the same, columns first: MAPF-LNS, MAPF-LNS2"},
+    {"mapf-lns2", "the same, rows first: MAPF-LNS, MAPF-LNS2"},
+    {"paths-xy", "the same, columns first"},
     {"yaml", "schedule of libMultiRobotPlanning"},
     {"tracker", "MAPF-tracker's moves, a line for each robot: 3ru2l"},
     {"tracker-csv", "MAPF-tracker's table"},
@@ -65,6 +66,9 @@ constexpr ParseSolution kParsers[] = {
     parse_solution_lacam,
     [](std::string_view text, const std::string& file, const Instance& instance) {
       return parse_paths_by(text, file, instance, CellOrder::kGuess);
+    },
+    [](std::string_view text, const std::string& file, const Instance& instance) {
+      return parse_paths_by(text, file, instance, CellOrder::kRowsFirst);
     },
     [](std::string_view text, const std::string& file, const Instance& instance) {
       return parse_paths_by(text, file, instance, CellOrder::kRowsFirst);

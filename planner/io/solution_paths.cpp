@@ -1,5 +1,5 @@
 // A line of cells for each robot, `Agent 0: (row,column)->(row,column)->`: what CBSH2-RTC, EECBS, PBS and
-// MAPF-LNS write. Rows come first; MAPF-LNS2 and its kin write columns first for maps of MovingAI.
+// MAPF-LNS write, rows first; or columns first.
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/step_plan.hpp"
 #include "planner/io/text.hpp"

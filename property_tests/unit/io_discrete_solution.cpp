@@ -60,7 +60,7 @@ TEST(IoDiscreteSolution, OnePlanIsTheSameInAllFormats) {
   EXPECT_EQ(plan.trajectories[1].motions[1], (TimedMotion{1, 2, {0, 2}, {1, 2}}));
   EXPECT_EQ(flowtime_s(plan), 10);
   EXPECT_EQ(makespan_s(plan), 5);
-  for (const char* const name : {"eecbs.txt", "mapf_lns2.txt", "libmrp.yaml", "tracker.txt", "tracker.csv"}) {
+  for (const char* const name : {"eecbs.txt", "paths_xy.txt", "libmrp.yaml", "tracker.txt", "tracker.csv"}) {
     const Solution other = read(corpus_text(name)).solution;
     EXPECT_EQ(plan_hash(other), plan_hash(plan)) << name;
   }
@@ -69,15 +69,15 @@ TEST(IoDiscreteSolution, OnePlanIsTheSameInAllFormats) {
 TEST(IoDiscreteSolution, FormatsHaveNamesForWhereGuessingFails) {
   const Solution plan = read(corpus_text("lacam.txt"), "lacam").solution;
   const std::pair<const char*, const char*> formats[] = {
-      {"eecbs.txt", "eecbs"},         {"eecbs.txt", "paths"},  {"mapf_lns2.txt", "paths"},
-      {"mapf_lns2.txt", "mapf-lns2"}, {"libmrp.yaml", "yaml"}, {"tracker.txt", "tracker"},
+      {"eecbs.txt", "eecbs"},        {"eecbs.txt", "paths"},  {"paths_xy.txt", "paths"},
+      {"paths_xy.txt", "paths-xy"},  {"libmrp.yaml", "yaml"}, {"tracker.txt", "tracker"},
       {"tracker.csv", "tracker-csv"}};
   for (const auto& [file, format] : formats) {
     EXPECT_EQ(plan_hash(read(corpus_text(file), format).solution), plan_hash(plan)) << file << " " << format;
   }
-  EXPECT_EQ(refusal(corpus_text("eecbs.txt"), "mapf-lns2"),
+  EXPECT_EQ(refusal(corpus_text("eecbs.txt"), "paths-xy"),
             "s:1: cells with the row first, expected the column first in this format");
-  EXPECT_EQ(refusal(corpus_text("mapf_lns2.txt"), "eecbs"),
+  EXPECT_EQ(refusal(corpus_text("paths_xy.txt"), "eecbs"),
             "s:1: cells with the column first, expected the row first in this format");
 }
 
@@ -178,6 +178,8 @@ TEST(IoDiscreteSolution, InstancesAreWrittenForOtherPlanners) {
             "- name: agent0\n  start: [0, 0]\n  goal: [5, 0]\n"
             "- name: agent1\n  start: [0, 3]\n  goal: [4, 2]\n"
             "- name: agent2\n  start: [5, 3]\n  goal: [5, 3]\n");
+  const std::string map = write_ccbs_map(instance.map);
+  EXPECT_LT(map.find("<width>6</width>"), map.find("<row>0 0 1 0 0 0</row>"));
   EXPECT_NE(write_ccbs_task(instance).find("<agent start_i=\"3\" start_j=\"0\" goal_i=\"2\" goal_j=\"4\" />"),
             std::string::npos);
   PlannerOptions options;
