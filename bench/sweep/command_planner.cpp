@@ -304,6 +304,13 @@ std::string last_words(const fs::path& log, int signal) {
   return "";
 }
 
+/// Whether it wrote these words.
+bool prints(const fs::path& log, std::string_view words) {
+  if (words.empty()) return false;
+  const auto text = read_file(log.string());
+  return text && text->find(words) != std::string::npos;
+}
+
 /// That ended the program, as far as the shell tells; 0 for none.
 int signal_of(const ProgramRun& run) {
   if (run.signal != 0) return run.signal;
@@ -383,6 +390,7 @@ Expected<CommandPlannerSpec, std::string> known_command(const KnownPlanner& know
   CommandPlannerSpec spec;
   spec.name = name.empty() ? std::string(known.name) : name;
   spec.format = std::string(known.format);
+  spec.no_plan = std::string(known.no_plan);
   spec.command = with_placeholders(known.command, [&](std::string_view placeholder) {
     return placeholder == "program" ? std::optional(shell_quoted(path)) : std::nullopt;
   });
@@ -477,6 +485,11 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
     row.message = ending(run) + words;
   } else if (files.empty()) {
     row.message = "left no solution, " + ending(run) + words;
+  } else if (prints(log, spec_.no_plan)) {
+    const bool used_all = run.wall_time_s >= limit_of(options);
+    row.status = used_all ? db::ResultStatus::kLimit : db::ResultStatus::kFailed;
+    if (used_all) row.limit = "time";
+    row.message = "prints '" + spec_.no_plan + "', " + ending(run);
   } else if (files.size() > 1) {
     row.message = fmt::format("left {} new files, {} and {}{}, expected one, or {{out}}", files.size(),
                               files[0].filename().string(), files[1].filename().string(),

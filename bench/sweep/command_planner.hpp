@@ -34,7 +34,8 @@ struct CommandPlannerSpec {
   std::string format = {};  ///< of its solution, as sipplab::solution_readers() has it; empty: guessed
   std::uint64_t memory_limit_mib = kDefaultMemoryLimitMib;
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
-  bool retime = false;                 ///< judge its plan with the earliest times for its ways and orders
+  std::string no_plan = {};  ///< what it prints where the file that it leaves is no plan; empty: nothing
+  bool retime = false;       ///< judge its plan with the earliest times for its ways and orders
 };
 
 /// From "cmd:COMMAND", or "NAME:PATH" for a program of known_planners(). Named after its program, or the

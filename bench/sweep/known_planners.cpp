@@ -37,7 +37,8 @@ constexpr KnownPlanner kPlanners[] = {
     {"libmrp-sipp", "prioritized SIPP of libMultiRobotPlanning", "{program} -i {yaml} -o {out}", "yaml",
      kUnitSteps},
     {"ccbs", "Continuous-CBS (Andreychuk et al. 2022), moves as --connectedness says",
-     "{program} {ccbs_map} {ccbs_task} {ccbs_config}", "ccbs", "one radius up to 0.5, speed 1"},
+     "{program} {ccbs_map} {ccbs_task} {ccbs_config}", "ccbs", "one radius up to 0.5, speed 1",
+     "found: false"},
     {"aa-sipp", "the published AA-SIPP(m) (Yakovlev, Andreychuk 2017)", "{program} {task} {map} {config}",
      "aa-sipp", "nothing more: it reads all that AA-SIPP(m)'s XML states"},
 };
