@@ -25,9 +25,9 @@ constexpr std::uint64_t kLeastPatienceSteps = 256;
 /// with 950 robots it costs twice the time of search. They keep places at the rim, too.
 constexpr double kCrowdedShare = 0.9;
 
-bool is_crowded(const FreeGrid& grid, const Configuration& starts) {
-  return static_cast<double>(starts.size()) >= kCrowdedShare * static_cast<double>(grid.size());
-}
+/// Longest paths after which robots go by plain distances: those that are left then stand in each other's
+/// way, and detours around traffic that is over keep them from getting past each other.
+constexpr std::uint64_t kGuidedLengths = 2;
 
 /// Constraints on one step out of a configuration: this one and those of all ancestors in
 /// the configuration's tree of constraints. [LC22], section 3.
@@ -73,12 +73,6 @@ std::optional<std::vector<std::uint32_t>> way_lengths(GoalDistances& distances, 
   return lengths;
 }
 
-/// Which robot chooses first: the latest, by whole multiples of this many steps, then in this order.
-struct Order {
-  std::vector<RobotId> robots;
-  std::uint32_t late_after_steps = 1;
-};
-
 /// Steps. In a crowd robots at the rim stay where they belong for so long before others push
 /// them, in one search and in the next by turns. On the empty map of 32 x 32 cells the first is
 /// faster with 950 robots, the second with 1,000; 100 is too many with both.
@@ -107,29 +101,30 @@ std::vector<std::uint32_t> depths_from_rim(const FreeGrid& grid) {
 
 /// Long paths first; in a crowd goals at the rim first: a crowd is put in order from outside to
 /// inside, as a sliding puzzle is.
-Order order_of(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
-               const std::vector<std::uint32_t>& lengths) {
-  Order order;
-  order.robots.resize(starts.size());
-  std::iota(order.robots.begin(), order.robots.end(), RobotId{0});
-  std::stable_sort(order.robots.begin(), order.robots.end(),
+std::vector<RobotId> choosing_order(const FreeGrid& grid, const Configuration& goals,
+                                    const std::vector<std::uint32_t>& lengths, bool is_crowded) {
+  std::vector<RobotId> robots(goals.size());
+  std::iota(robots.begin(), robots.end(), RobotId{0});
+  std::stable_sort(robots.begin(), robots.end(),
                    [&](RobotId a, RobotId b) { return lengths[a] > lengths[b]; });
-  if (!is_crowded(grid, starts)) return order;
+  if (!is_crowded) return robots;
   const std::vector<std::uint32_t> depths = depths_from_rim(grid);
-  std::stable_sort(order.robots.begin(), order.robots.end(),
+  std::stable_sort(robots.begin(), robots.end(),
                    [&](RobotId a, RobotId b) { return depths[goals[a]] < depths[goals[b]]; });
-  return order;
+  return robots;
 }
 
 /// One search from the starts.
 class Search {
  public:
-  /// All must outlive this.
-  Search(const FreeGrid& grid, GoalDistances& distances, const Configuration& starts,
-         const Configuration& goals, const Order& order, std::uint64_t seed)
+  /// All must outlive this. Robots follow the guide, if there is one, for so many steps.
+  Search(const FreeGrid& grid, const Configuration& starts, const Configuration& goals, Pibt pibt,
+         const ChoosingOrder& order, GuidedDistances* guide, std::uint64_t guided_steps)
       : grid_(grid),
         goals_(goals),
-        pibt_(grid, distances, !is_crowded(grid, starts), seed),
+        pibt_(std::move(pibt)),
+        guide_(guide),
+        guided_steps_(guided_steps),
         late_after_steps_(order.late_after_steps),
         rank_(starts.size()),
         order_(order.robots) {
@@ -159,6 +154,7 @@ class Search {
       if (is_at_limit(limits)) return LacamStatus::kLimit;
       ++steps_tried_;
       sort_robots(id);
+      pibt_.follow(steps_tried_ <= guided_steps_ ? guide_ : nullptr);
       Node& node = nodes_[id];
       const auto entry = static_cast<std::uint32_t>(node.next_constraint++);
       const StepOutcome outcome = pibt_.make_step(node.cells, order_, constraints_of(node, entry), next);
@@ -246,6 +242,8 @@ class Search {
   const FreeGrid& grid_;
   const Configuration& goals_;
   Pibt pibt_;
+  GuidedDistances* guide_;
+  std::uint64_t guided_steps_;
   std::uint32_t late_after_steps_;
   std::vector<std::uint32_t> rank_;  ///< by robot: 0 for the first
   std::vector<RobotId> order_;
@@ -259,28 +257,39 @@ class Search {
 
 }  // namespace
 
-LacamResult search_lacam(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
-                         std::uint64_t seed, const LacamLimits& limits) {
+Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals)
+    : grid_(grid), starts_(std::move(starts)), goals_(std::move(goals)), distances_(grid, goals_) {
+  const auto lengths = way_lengths(distances_, starts_);
+  is_solvable_ = lengths.has_value();
+  if (!is_solvable_ || starts_.empty()) return;
+  longest_ = *std::max_element(lengths->begin(), lengths->end());
+  order_.robots = choosing_order(grid_, goals_, *lengths, is_crowded());
+  guide_.emplace(grid_, goals_, traffic_costs(grid_, starts_, goals_));
+}
+
+bool Lacam::is_crowded() const {
+  return static_cast<double>(starts_.size()) >= kCrowdedShare * static_cast<double>(grid_.size());
+}
+
+LacamResult Lacam::search(std::uint64_t seed, const LacamLimits& limits) {
   LacamResult result;
-  GoalDistances distances(grid, goals);
-  const auto lengths = way_lengths(distances, starts);
-  if (!lengths) {
+  if (!is_solvable_) {
     result.status = LacamStatus::kUnsolvable;
     return result;
   }
-  const std::uint32_t longest = starts.empty() ? 0 : *std::max_element(lengths->begin(), lengths->end());
-  Order order = order_of(grid, starts, goals, *lengths);
   Random seeds(seed);
-  std::uint64_t patience = std::max(kLeastPatienceSteps, kPatience * longest);
+  std::uint64_t patience = std::max(kLeastPatienceSteps, kPatience * longest_);
   for (std::size_t search = 0;; ++search) {
-    if (is_crowded(grid, starts)) {
-      order.late_after_steps = kCrowdLateAfterSteps[search % kCrowdLateAfterSteps.size()];
-    }
+    if (is_crowded()) order_.late_after_steps = kCrowdLateAfterSteps[search % kCrowdLateAfterSteps.size()];
     const std::uint64_t left = limits.max_steps - result.steps_tried;
     LacamLimits attempt = limits;
     attempt.max_steps = std::min(left, patience);
     const std::uint64_t tried_before = result.steps_tried;
-    result = Search(grid, distances, starts, goals, order, seeds.next()).run(attempt);
+    // Every other search goes by plain distances alone.
+    GuidedDistances* const guide = guide_ && search % 2 == 0 ? &*guide_ : nullptr;
+    result = Search(grid_, starts_, goals_, Pibt(grid_, distances_, !is_crowded(), seeds.next()), order_,
+                    guide, kGuidedLengths * longest_)
+                 .run(attempt);
     const bool impatient = result.status == LacamStatus::kLimit && result.steps_tried == patience;
     result.steps_tried += tried_before;
     if (!impatient || patience == left || is_late(limits)) return result;

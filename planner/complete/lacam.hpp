@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "planner/complete/goal_distances.hpp"
+#include "planner/complete/guidance.hpp"
 #include "planner/complete/pibt.hpp"
 
 namespace sipplab {
@@ -31,16 +33,39 @@ struct LacamResult {
   std::uint64_t configurations = 0;  ///< different ones seen
 };
 
-/// Paths of all robots from starts to goals such that each step keeps (1) and (2) of
-/// Pibt::make_step. Without limits:
-///  (1) solved exactly when there are such paths;
-///  (2) the same input and seed give the same result.
-///
-/// Depth first; each configuration lets robots move by PIBT, the first time freely, then with more and
-/// more of them constrained, until all of its steps were tried. In the worst case exponential in
-/// the number of robots, in practice a few steps more than the longest path.
-/// REQUIRES: starts differ, goals differ, as many as each other.
-LacamResult search_lacam(const FreeGrid& grid, const Configuration& starts, const Configuration& goals,
-                         std::uint64_t seed, const LacamLimits& limits);
+/// Which robot chooses first: the latest, by whole multiples of this many steps, then in this order.
+struct ChoosingOrder {
+  std::vector<RobotId> robots;
+  std::uint32_t late_after_steps = 1;
+};
+
+class Lacam {
+ public:
+  /// The grid must outlive this. REQUIRES: starts differ, goals differ, as many as each other.
+  Lacam(const FreeGrid& grid, Configuration starts, Configuration goals);
+
+  /// Paths of all robots from starts to goals such that each step keeps (1) and (2) of
+  /// Pibt::make_step. Without limits:
+  ///  (1) solved exactly when there are such paths;
+  ///  (2) the same calls in the same sequence give the same results.
+  ///
+  /// Robots go around the traffic (GuidedDistances) until twice the longest path is over, then straight home.
+  /// Depth first; each configuration lets robots move by PIBT, the first time freely, then with more and
+  /// more of them constrained, until all of its steps were tried. In the worst case exponential in
+  /// the number of robots, in practice a few steps more than the longest path.
+  LacamResult search(std::uint64_t seed, const LacamLimits& limits);
+
+ private:
+  bool is_crowded() const;
+
+  const FreeGrid& grid_;
+  Configuration starts_;
+  Configuration goals_;
+  GoalDistances distances_;
+  std::optional<GuidedDistances> guide_;
+  ChoosingOrder order_;
+  std::uint32_t longest_ = 0;  ///< steps of the longest path
+  bool is_solvable_ = true;    ///< each goal can be reached
+};
 
 }  // namespace sipplab

@@ -65,12 +65,12 @@ bool Pibt::move(RobotId root) {
 }
 
 Pibt::Choice Pibt::begin_choice(RobotId robot) {
-  // Nearer cells, the robot's own, then farther ones; ties by chance.
-  constexpr std::uint32_t kNearer = 0;
-  constexpr std::uint32_t kOwn = 1;
-  constexpr std::uint32_t kFarther = 2;
-  constexpr unsigned kTieBits = 15;
+  // By gain; the robot's own cell before those that are farther away. Ties: free cells, then those where it
+  // hinders fewer, then chance.
+  constexpr unsigned kTieBits = 12;
   constexpr std::uint64_t kTieMask = (1u << kTieBits) - 1;
+  constexpr unsigned kSecondBits = 3;
+  constexpr auto kMostGain = static_cast<int>(kDearestMoveCost);
   const CellId here = (*now_)[robot];
   std::uint64_t ties = random_.next();
   Choice choice;
@@ -85,12 +85,14 @@ Pibt::Choice Pibt::begin_choice(RobotId robot) {
     ranks[at] = rank;
     choice.candidates[at] = cell;
   };
-  insert(2 * kOwn << kTieBits, here);
+  const auto rank_of = [](int gain, bool stays) {
+    return static_cast<std::uint32_t>(2 * (kMostGain - gain) + (gain < 0 || stays ? 1 : 0)) << kSecondBits;
+  };
+  insert(rank_of(0, true) << kTieBits, here);
   for (const CellId cell : grid_.neighbours(here)) {
-    const std::uint32_t rank = distances_.is_nearer(robot, here, cell) ? kNearer : kFarther;
-    const bool is_second_choice = prefer_free_cells_ && robot_at_[cell] != kNoRobot;
-    insert((2 * rank + (is_second_choice ? 1 : 0)) << kTieBits | static_cast<std::uint32_t>(ties & kTieMask),
-           cell);
+    const std::uint32_t occupied = prefer_free_cells_ && robot_at_[cell] != kNoRobot ? 4 : 0;
+    const std::uint32_t rank = rank_of(gain(robot, here, cell), false) + occupied + hindrance(robot, cell);
+    insert(rank << kTieBits | static_cast<std::uint32_t>(ties & kTieMask), cell);
     ties >>= kTieBits;
   }
 
@@ -99,6 +101,16 @@ Pibt::Choice Pibt::begin_choice(RobotId robot) {
     std::reverse(choice.candidates.begin(), choice.candidates.begin() + choice.count);
   }
   return choice;
+}
+
+std::uint32_t Pibt::hindrance(RobotId robot, CellId cell) const {
+  if (guide_ == nullptr) return 0;
+  std::uint32_t hindered = 0;
+  for (const CellId next : grid_.neighbours(cell)) {
+    const RobotId other = robot_at_[next];
+    hindered += other != kNoRobot && other != robot && gain(other, next, cell) > 0;
+  }
+  return hindered;
 }
 
 bool Pibt::reserve_candidate(Choice& choice) {

@@ -1,6 +1,7 @@
 // One step of all robots at once, in discrete time: priority inheritance with backtracking.
 // [PIBT]: Okumura, Machida, Defago and Tamura, Artificial Intelligence 310, 2022;
 // [LC23]: Okumura, IJCAI 2023, section 4 (swaps in narrow places).
+// [HI25]: Okumura and Nagai, arXiv 2505.12623, 2025 (hindrance).
 // Differs from both: a closed ring of robots never turns. Robots of radius 0.5 that fill a
 // ring of cells cannot turn it without overlap, so that such a step has no plan in
 // continuous time.
@@ -12,12 +13,13 @@
 #include <vector>
 
 #include "planner/complete/goal_distances.hpp"
+#include "planner/complete/guidance.hpp"
 #include "planner/core/random.hpp"
 
 namespace sipplab {
 
 /// The cell of each robot at one time step.
-using Configuration = std::vector<CellId>;
+using Configuration = CellIds;
 
 inline constexpr RobotId kNoRobot = UINT32_MAX;
 
@@ -38,6 +40,9 @@ class Pibt {
   /// Both must outlive this. `prefer_free_cells`: of cells that are equally near, robots try
   /// free ones first. O(cells).
   Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed);
+
+  /// Cells are nearer or farther by these distances from now on; null: by moves alone.
+  void follow(GuidedDistances* guide) { guide_ = guide; }
 
   /// Moves each robot to a neighbour of its cell or leaves it where it is, so that
   ///  (1) no two robots end in one cell;
@@ -65,6 +70,13 @@ class Pibt {
     std::array<CellId, kMaxCandidates> candidates{};
   };
 
+  /// Above 0 if `to` is nearer to the robot's goal than `from`.
+  int gain(RobotId robot, CellId from, CellId to) const {
+    if (guide_ != nullptr) return guide_->gain(robot, from, to);
+    return distances_.is_nearer(robot, from, to) ? 1 : -1;
+  }
+  /// [HI25]: other robots next to the cell that want to go there.
+  std::uint32_t hindrance(RobotId robot, CellId cell) const;
   bool assign_all(std::span<const StepConstraint> constraints);
   bool move(RobotId root);
   Choice begin_choice(RobotId robot);
@@ -92,6 +104,7 @@ class Pibt {
 
   const FreeGrid& grid_;
   GoalDistances& distances_;
+  GuidedDistances* guide_ = nullptr;
   bool prefer_free_cells_;
   Random random_;
   const Configuration* now_ = nullptr;

@@ -1,0 +1,63 @@
+// Where to go in a crowd: distances to goals over moves that are dearer the more robots come the other way.
+// [CH24]: Chen, Harabor, Li and Stuckey, "Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding",
+// AAAI 2024: paths are chosen one after the other, each around the traffic of the others. Differs from it:
+// robots are not held to their own path; the traffic of all paths prices the moves for everybody.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "planner/complete/goal_distances.hpp"
+
+namespace sipplab {
+
+/// One for each robot, by position.
+using CellIds = std::vector<CellId>;
+
+/// By cell and position in FreeGrid::neighbours().
+using MoveCosts = std::vector<std::array<std::uint8_t, 4>>;
+
+/// Cost of a move that nobody meets, and the most that a move may cost: in quarters of a step, so that robots
+/// choose among cells of about the same cost by who stands there. (Tenths: 5 % more flowtime; whole steps: 10
+/// %.)
+inline constexpr std::uint32_t kFreeMoveCost = 4;
+inline constexpr std::uint32_t kDearestMoveCost = 40;
+
+/// What moves cost after each robot has chosen a path around the traffic of all others: a path against a move
+/// adds a tenth of a step. O(robots x cells x log cells) at worst; paths in little traffic see few cells.
+/// REQUIRES: goals can be reached.
+MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals);
+
+/// Costs of the cheapest paths to each robot's goal, found as far as they are asked for: Dijkstra from the
+/// goal. Neighbours differ by kDearestMoveCost at most, so that costs are kept in a byte a cell.
+class GuidedDistances {
+ public:
+  /// Both must outlive this. O(robots x cells) bytes.
+  GuidedDistances(const FreeGrid& grid, const CellIds& goals, const MoveCosts& costs);
+
+  /// By how much `to` is nearer to the robot's goal than `from`; negative if it is farther away.
+  /// REQUIRES: the two are neighbours, and there is a path to the goal.
+  int gain(RobotId robot, CellId from, CellId to);
+
+ private:
+  static constexpr int kUnknown = 0;
+  /// Costs are kept modulo this, as 1 to 255.
+  static constexpr int kModulus = 255;
+  static_assert(2 * kDearestMoveCost < kModulus);
+
+  struct Search {
+    std::vector<std::uint8_t> codes;                       ///< by cell: kUnknown, or 1 + cost % kModulus
+    std::vector<std::pair<std::uint32_t, CellId>> queued;  ///< heap, least cost first
+  };
+
+  int code(Search& search, CellId cell);
+
+  const FreeGrid& grid_;
+  MoveCosts costs_to_;  ///< by cell and neighbour: from the neighbour to the cell
+  std::vector<Search> searches_;
+};
+
+}  // namespace sipplab
