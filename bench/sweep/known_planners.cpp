@@ -27,8 +27,9 @@ constexpr KnownPlanner kPlanners[] = {
      "{program} -m {movingai_map} -a {scen} -k {robots} -t {time_limit} -s 0 -o {stats} --outputPaths={out}",
      "eecbs", kUnitSteps},
     {"mapf-lns2", "MAPF-LNS2 (Li et al. 2022), anytime: takes the whole time limit",
-     "{program} -m {movingai_map} -a {scen} -k {robots} -t {time_limit} -s 0 --seed={small_seed} -o {stats} "
-     "--outputPaths={out}",
+     "{program} -m {movingai_map} -a {scen} -k {robots} -t {time_limit} -s 0 --seed={small_seed} "
+     "--maxIterations=1000000000 "
+     "-o {stats} --outputPaths={out}",
      "mapf-lns2", kUnitSteps},
     {"libmrp-cbs", "CBS of libMultiRobotPlanning, optimal in steps", "{program} -i {yaml} -o {out}", "yaml",
      kUnitSteps},

@@ -319,6 +319,14 @@ expect 0 import tracker known.csv lane.csv --db planners.db
 says 'known.csv: 2 best known costs'
 equal "$(sqlite3 planners.db "SELECT lower_cost, solution_cost, planner, unit_step_cost >= 8,
     above_best_known = unit_step_cost - 9 FROM v_best_known")" '8|9|sipplab any-angle:no method:complete|1|1' 'the best that is known'
+# All of it comes with a merge.
+counts='SELECT (SELECT count(*) FROM v_retimed), (SELECT count(*) FROM v_reported), (SELECT count(*) FROM v_best_known)'
+printf 'map_name,scen_type,type_id,agents,lower_cost,solution_cost\nlane,random,7,2,0,30\n' >worse.csv
+expect 0 import tracker worse.csv --db merged.db
+expect 0 merge planners.db --db merged.db
+equal "$(sqlite3 merged.db "$counts")" "$(sqlite3 planners.db "$counts")" 'what is merged'
+equal "$(sqlite3 merged.db 'SELECT lower_cost, solution_cost FROM best_known')" '8|9' 'the best of both histories'
+expect 0 doctor --db merged.db
 expect 0 retime --task scenario/lane-random-7.scen --solution lane.csv -o lane.json
 says 'retimed +valid'
 expect 0 plan --task scenario/lane-random-7.scen --solution lane.csv --improve 50i --json

@@ -15,7 +15,8 @@ CREATE TABLE retiming (
   retime_ns        INTEGER NOT NULL CHECK (retime_ns >= 0),
   unit_step_cost   INTEGER CHECK (unit_step_cost >= 0),
   PRIMARY KEY (cell_id, instance_id, position, repetition),
-  FOREIGN KEY (cell_id, instance_id, position, repetition) REFERENCES result
+  FOREIGN KEY (cell_id, instance_id, position, repetition)
+    REFERENCES result (cell_id, instance_id, position, repetition)
 ) STRICT, WITHOUT ROWID;
 
 -- Numbers by the program's own names. Nobody checked them.
@@ -27,7 +28,8 @@ CREATE TABLE reported (
   name        TEXT    NOT NULL CHECK (name <> ''),
   value       REAL    NOT NULL,
   PRIMARY KEY (cell_id, instance_id, position, repetition, name),
-  FOREIGN KEY (cell_id, instance_id, position, repetition) REFERENCES result
+  FOREIGN KEY (cell_id, instance_id, position, repetition)
+    REFERENCES result (cell_id, instance_id, position, repetition)
 ) STRICT, WITHOUT ROWID;
 
 -- Best known sums of unit steps between four neighbours, as MAPF-tracker collects them.
