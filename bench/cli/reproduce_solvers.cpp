@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "bench/cli/console.hpp"
+#include "bench/cli/history.hpp"
 #include "bench/present/solvers_report.hpp"
 #include "bench/sweep/known_planners.hpp"
 #include "db/database.hpp"
