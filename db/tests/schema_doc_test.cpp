@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "db/best_known.hpp"
 #include "db/catalogue.hpp"
 #include "db/findings.hpp"
 #include "db/gate_runs.hpp"
@@ -127,8 +128,10 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
   for (const bool solved : {true, false}) {
     auto recorder = test::must(RunRecorder::begin(test::must(Database::open(file)), test::sample_run()));
     const CaseInfo parameters = test::sample_case(64);
-    recorder.add(parameters, test::sample_instance(0),
-                 solved ? test::sample_result(0) : test::failed_result());
+    ResultRow row = solved ? test::sample_result(0) : test::failed_result();
+    row.retiming = RetimingRow{};
+    row.reported = {{"iterations", 7}};
+    recorder.add(parameters, test::sample_instance(0), row);
     test::must(recorder.commit_case(parameters));
     runs.push_back(recorder.run_uuid());
   }
@@ -136,6 +139,8 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
   import_a_report();
   record_a_gate_run();
   record_fuzzing();
+  Database best = test::must(Database::open(file));
+  test::must(record_best_known(best, {{"a_map", "random", 1, 10, 20, 30}}));
   const auto expect_answer = [&](std::string sql) {
     replace_all(sql, ":run", "'" + runs[0] + "'");
     replace_all(sql, ":other", "'" + runs[1] + "'");
