@@ -164,7 +164,7 @@ class Examination {
         "    instr(run.options, ' memory_limit=') - instr(run.options, ' planner=')) AS digest "
         "  FROM run JOIN cell ON cell.run_id = run.id JOIN case_ ON case_.id = cell.case_id "
         "  WHERE run.excluded_reason IS NULL AND run.options LIKE '% planner=%') "
-        "SELECT printf('%s stands for %d commands', planner, count(*)) FROM command "
+        "SELECT printf('\"%w\" stands for %d commands', planner, count(*)) FROM command "
         "GROUP BY planner HAVING count(*) > 1");
     if (!rows) return Unexpected{rows.error()};
     for (const std::string& row : *rows) {

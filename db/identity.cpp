@@ -2,6 +2,7 @@
 #include "db/identity.hpp"
 
 #include <fmt/core.h>
+#include <stdlib.h>  // getloadavg is no part of C++
 #include <unistd.h>
 
 #include <fstream>
@@ -62,6 +63,12 @@ bool is_alive(std::string_view process) {
   std::string start;
   parts >> boot >> pid >> start;
   return !start.empty() && boot == boot_id() && start == start_time(pid);
+}
+
+std::optional<double> machine_load() {
+  double load = 0;
+  if (getloadavg(&load, 1) != 1) return std::nullopt;
+  return load;
 }
 
 }  // namespace sipplab::db

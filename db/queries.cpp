@@ -35,27 +35,28 @@ CellSummary read_cell(const Statement& row) {
   CellSummary cell;
   read_row(row, [&cell](auto visit) { CellSummary::measures(cell, visit); });
   cell.parameters = read_case(row, row.column("id"));
+  cell.case_id = row.integer(row.column("case_id"));
   return cell;
 }
 
 Result<std::vector<CellSummary>> cells_of(Database& database, const std::string& uuid) {
-  return SIPPLAB_TRY(
-             Statement::prepare(database.connection(),
-                                "SELECT cell.*, case_.* FROM v_run_cells AS cell JOIN case_ ON case_.id = "
-                                "cell.case_id WHERE cell.run = ? "
-                                "ORDER BY cell.environment, cell.planner, cell.initial_order, "
-                                "cell.reschedule, cell.ssi_s, cell.robots, id",
-                                "reading the cells of a run", uuid))
+  return SIPPLAB_TRY(Statement::prepare(
+                         database.connection(),
+                         "SELECT cell.*, case_.* FROM v_all_run_cells AS cell JOIN case_ ON case_.id = "
+                         "cell.case_id WHERE cell.run = ? "
+                         "ORDER BY cell.environment, cell.planner, cell.initial_order, "
+                         "cell.reschedule, cell.ssi_s, cell.robots, id",
+                         "reading the cells of a run", uuid))
       .collect(read_cell);
 }
 
 /// What the view of its kind says of a run that has no cells.
 Result<Table> details_of(Database& database, const RunSummary& run) {
   const std::string kind = run.kind;
-  const char* from = kind == "report"     ? "v_measurements WHERE run = ?"
+  const char* from = kind == "report"     ? "v_all_measurements WHERE run = ?"
                      : kind == "property" ? "v_property_runs WHERE property_run = ?"
                      : kind == "fuzz"     ? "v_fuzz_runs WHERE fuzz_run = ?"
-                     : kind == "gate"     ? "v_gate_cells WHERE gate_run = ?"
+                     : kind == "gate"     ? "v_all_gate_cells WHERE gate_run = ?"
                                           : nullptr;
   if (from == nullptr) return Table{};
   return rest_of(SIPPLAB_TRY(Statement::prepare(database.connection(), fmt::format("SELECT * FROM {}", from),

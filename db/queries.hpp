@@ -71,6 +71,7 @@ struct RunSummary {
 /// makespan and flowtime are over solved instances, and absent when there is none.
 struct CellSummary {
   CaseInfo parameters;
+  std::int64_t case_id = 0;
   std::int64_t results = 0;
   std::int64_t solved = 0;
   std::int64_t limited = 0;
@@ -84,6 +85,9 @@ struct CellSummary {
   std::optional<double> median_flowtime_s;
   std::optional<double> mean_tries;
   std::optional<double> mean_expansions;
+  std::optional<double> median_solved_time_s;    ///< over solved results
+  std::optional<double> median_time_to_solve_s;  ///< unsolved ones as the longest; absent if in the middle
+  std::optional<double> par2_time_s;
 
   template <class Self, class Visit>
   static void columns(Self&& self, Visit&& visit) {
@@ -112,6 +116,9 @@ struct CellSummary {
     visit("median_flowtime_s", self.median_flowtime_s);
     visit("mean_tries", self.mean_tries);
     visit("mean_expansions", self.mean_expansions);
+    visit("median_solved_time_s", self.median_solved_time_s);
+    visit("median_time_to_solve_s", self.median_time_to_solve_s);
+    visit("par2_time_s", self.par2_time_s);
   }
 };
 

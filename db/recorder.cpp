@@ -27,22 +27,23 @@ Error bad_input(const Database& database, std::string what) {
 bool has_nan(const ResultRow& row) {
   const auto is_nan = [](const std::optional<double>& value) { return value && std::isnan(*value); };
   return is_nan(row.makespan_s) || is_nan(row.flowtime_s) || is_nan(row.min_clearance_cells) ||
-         is_nan(row.ssi_kept_s);
+         is_nan(row.ssi_kept_s) || is_nan(row.flowtime_bound_s) || is_nan(row.makespan_bound_s);
 }
 
 }  // namespace
 
 Result<std::optional<std::string>> find_other_command(Database& database, const std::string& planner,
                                                       const std::string& digest) {
-  auto select =
-      Statement::prepare(database.connection(),
-                         "SELECT uuid FROM run WHERE kind = 'sweep' AND excluded_reason IS NULL "
-                         "  AND options LIKE '% planner=%' AND instr(options, ' planner=' || ?2 || ' ') = 0 "
-                         "  AND EXISTS (SELECT 1 FROM cell JOIN case_ ON case_.id = cell.case_id "
-                         "              WHERE cell.run_id = run.id "
-                         "                AND (case_.planner = ?1 OR case_.planner GLOB ?1 || ' [a-z]*:*')) "
-                         "ORDER BY started_utc DESC, id DESC LIMIT 1",
-                         "looking for runs of another command");
+  auto select = Statement::prepare(
+      database.connection(),
+      "SELECT uuid FROM run WHERE kind = 'sweep' AND excluded_reason IS NULL "
+      "  AND options LIKE '% planner=%' AND instr(options, ' planner=' || ?2 || ' ') = 0 "
+      "  AND EXISTS (SELECT 1 FROM cell JOIN case_ ON case_.id = cell.case_id "
+      "              WHERE cell.run_id = run.id "
+      "                AND (case_.planner = ?1 OR (substr(case_.planner, 1, length(?1) + 1) = ?1 || ' ' "
+      "                     AND substr(case_.planner, length(?1) + 2) GLOB '[a-z]*:*'))) "
+      "ORDER BY started_utc DESC, id DESC LIMIT 1",
+      "looking for runs of another command");
   if (!select) return Unexpected{select.error()};
   const auto row = select->bind(planner, digest).step();
   if (!row) return Unexpected{row.error()};
@@ -189,10 +190,13 @@ Result<Done> RunRecorder::write_case(const CaseInfo& parameters, const std::vect
   SIPPLAB_TRY(check_writer());
   const auto case_key = SIPPLAB_TRY(case_id(connection, parameters));
   SIPPLAB_TRY(sqlite::run(
-      connection, "INSERT INTO cell (run_id, case_id, finished_utc, result_count) VALUES (?, ?, ?, ?)",
-      "writing a finished case", run_id_, case_key, utc_now(), static_cast<std::int64_t>(results.size())));
+      connection,
+      "INSERT INTO cell (run_id, case_id, finished_utc, result_count, machine_load) VALUES (?, ?, ?, ?, ?)",
+      "writing a finished case", run_id_, case_key, utc_now(), static_cast<std::int64_t>(results.size()),
+      machine_load()));
   const std::int64_t cell_id = connection.last_insert_rowid();
   SIPPLAB_TRY(write_results(cell_id, results));
+  SIPPLAB_TRY(write_bounds(case_key, results));
   auto summariser = SIPPLAB_TRY(CellSummariser::prepare(connection));
   std::vector<const ResultRow*> rows;
   for (const BufferedResult& result : results) rows.push_back(&result.row);
@@ -206,8 +210,8 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
       "INSERT INTO result (cell_id, instance_id, position, repetition, status, planning_time_ns, makespan_s, "
       "flowtime_s, tries, expansions, generations, plan_hash, valid, violations, min_clearance_cells, "
       "peak_memory_bytes, "
-      "limit_struck, message, made_by, ssi_kept_s, instructions) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       "writing the results of a case"));
   auto keys = SIPPLAB_TRY(InstanceKeys::prepare(database_.connection()));
   for (const auto& [instance, row] : results) {
@@ -220,7 +224,7 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                           to_count(row.expansions), to_count(row.generations), plan_hash, row.valid,
                           row.violations, row.min_clearance_cells, row.peak_memory_bytes,
                           null_if_empty(row.limit), null_if_empty(row.message), null_if_empty(row.made_by),
-                          row.ssi_kept_s, row.instructions)
+                          row.ssi_kept_s, row.instructions, row.cpu_time_ns)
                     .run());
     if (row.retiming) SIPPLAB_TRY(write_retiming(cell_id, instance_key, row));
     if (!row.reported.empty()) SIPPLAB_TRY(write_reported(cell_id, instance_key, row));
@@ -251,6 +255,27 @@ Result<Done> RunRecorder::write_reported(std::int64_t cell_id, std::int64_t inst
                             "VALUES (?, ?, ?, ?, ?, ?)",
                             "writing what a program says of its run", cell_id, instance_id, row.position,
                             row.repetition, name, value));
+  }
+  return Done{};
+}
+
+Result<Done> RunRecorder::write_bounds(std::int64_t case_id, const std::vector<BufferedResult>& results) {
+  // Work on a bound is limited: a later one may be greater, and is as true.
+  auto insert = SIPPLAB_TRY(Statement::prepare(
+      database_.connection(),
+      "INSERT INTO instance_bound (instance_id, any_angle, connectedness, flowtime_bound_s, "
+      "makespan_bound_s) "
+      "SELECT instance.id, any_angle, iif(any_angle, 0, connectedness), ?3, ?4 FROM case_, instance "
+      "WHERE case_.id = ?1 AND content_hash = ?2 "
+      "ON CONFLICT DO UPDATE SET flowtime_bound_s = max(flowtime_bound_s, excluded.flowtime_bound_s), "
+      "makespan_bound_s = max(makespan_bound_s, excluded.makespan_bound_s)",
+      "writing lower bounds"));
+  std::string last;  // repetitions follow each other
+  for (const auto& [instance, row] : results) {
+    if (!row.flowtime_bound_s || !row.makespan_bound_s || instance.content_hash == last) continue;
+    last = instance.content_hash;
+    SIPPLAB_TRY(
+        insert.bind(case_id, instance.content_hash, row.flowtime_bound_s, row.makespan_bound_s).run());
   }
   return Done{};
 }

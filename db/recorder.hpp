@@ -87,6 +87,7 @@ class RunRecorder {
   Result<Done> write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results);
   Result<Done> write_retiming(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
   Result<Done> write_reported(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
+  Result<Done> write_bounds(std::int64_t case_id, const std::vector<BufferedResult>& results);
   Result<Done> write_progress(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
   /// An error when another process has taken the run over.
   Result<Done> check_writer();

@@ -187,7 +187,12 @@ struct ResultRow {
   std::string made_by;                       ///< "prioritized", "complete"; empty: another program
   std::optional<double> ssi_kept_s;          ///< may be infinite
   std::optional<std::int64_t> instructions;  ///< of planning, in user space
-  std::vector<ProgressRow> progress = {};    ///< of improvement, in order of time; else empty
+  std::optional<std::int64_t> cpu_time_ns;   ///< processor time of planning, over all threads
+  /// What no plan of the instance by the moves of the case can fall below, solved or not; kept once for
+  /// all results of the instance.
+  std::optional<double> flowtime_bound_s;
+  std::optional<double> makespan_bound_s;
+  std::vector<ProgressRow> progress = {};  ///< of improvement, in order of time; else empty
   std::optional<RetimingRow> retiming = {};  ///< where the plan was re-timed
   /// What another program says of its run, by its own names: nobody checked that.
   std::vector<std::pair<std::string, double>> reported = {};

@@ -21,6 +21,8 @@ struct CellMedians {
   std::optional<double> planning_time_s;
   std::optional<double> makespan_s;  ///< of solved results, as the next
   std::optional<double> flowtime_s;
+  std::optional<double> solved_time_s;
+  std::optional<double> time_to_solve_s;  ///< unsolved ones counted as the longest; none if in the middle
 };
 /// Bit for bit what v_recomputed_cells says.
 CellMedians medians_of(const std::vector<const ResultRow*>& results);
@@ -39,8 +41,8 @@ class CellSummariser {
   sqlite::Statement insert_;
 };
 
-/// Cells without a summary, or with one that is not what the results say. Reads all
-/// results.
+/// Cells without a summary, or with one that is not what the results say, and instances of cases of
+/// which that is true. Reads all results.
 Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection);
 
 /// Computes all summaries again, in one transaction.

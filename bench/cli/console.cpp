@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
@@ -45,6 +46,8 @@ int close_stdout(int code) {
   if (!std::cout) remember_failure();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) remember_failure();
   if (!stdout_failed) return code;
+  // Who read it has seen enough, such as `head`. Programs that die of it end so, too.
+  if (stdout_errno == EPIPE) return kSignalExitBase + SIGPIPE;
   const std::string reason = stdout_errno != 0 ? std::strerror(stdout_errno) : "write error";
   return fail("sipplab: cannot write to standard output: " + reason);
 }

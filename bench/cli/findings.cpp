@@ -131,7 +131,7 @@ std::vector<fs::path> places_of(const FindingsArguments& arguments) {
   std::error_code ignored;
   const fs::path build = fs::absolute(fs::path(arguments.program), ignored).lexically_normal().parent_path();
   std::vector<fs::path> places{build / "fuzz"};
-  for (const char* preset : {"fuzz", "sanitize", "debug", "release"}) {
+  for (const char* preset : {"fuzz", "asan-ubsan", "debug", "release"}) {
     places.push_back(build.parent_path() / preset / "fuzz");
   }
   return places;

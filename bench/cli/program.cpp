@@ -94,7 +94,7 @@ int parse_and_run(int argc, char** argv, const Laboratory& laboratory) {
 }  // namespace
 
 int run_program(int argc, char** argv, const Laboratory& laboratory) {
-  // A reader that goes away is an error of writing, not the death of a sweep.
+  // A reader that goes away ends the output, not a sweep.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return close_stdout(parse_and_run(argc, argv, laboratory));

@@ -33,10 +33,12 @@ int run_report(const ReportArguments& arguments) {
   const bool comparable = !data.against_base.cells.empty();
   const std::vector<bench::DensityChart> charts =
       bench::density_charts(data.run, comparable ? data.base : std::nullopt);
-  std::vector<std::pair<std::string, std::string>> files{{"index.html", bench::report_page(data, charts)}};
-  for (const bench::DensityChart& density : charts) {
-    files.emplace_back(density.name + ".svg", bench::svg(density.chart, bench::SvgUse::kFile));
-  }
+  std::vector<bench::Chart> drawn;
+  for (const bench::DensityChart& density : charts) drawn.push_back(density.chart);
+  const auto pictures = SIPPLAB_TRY_OR(fail, bench::pictures_of(drawn, bench::PictureFormat::kSvg));
+  std::vector<std::pair<std::string, std::string>> files;
+  files.emplace_back("index.html", SIPPLAB_TRY_OR(fail, bench::report_page(data, charts)));
+  for (std::size_t i = 0; i < charts.size(); ++i) files.emplace_back(charts[i].name + ".svg", pictures[i]);
   std::error_code error;
   std::filesystem::create_directories(arguments.folder, error);
   if (error) return fail(arguments.folder + ": " + error.message() + ", expected a folder to write to");

@@ -44,11 +44,12 @@ int write_page(const std::string& folder, const std::vector<bench::MeasuredCell>
                const std::string& source) {
   std::error_code error;
   fs::create_directories(folder, error);
-  const std::pair<const char*, std::string> files[] = {
-      {"index.html", bench::reproduction_page(cells, source)},
-      {"figure1.svg", bench::svg(bench::figure_chart(cells), bench::SvgUse::kFile)},
-      {"table1.svg", bench::svg(bench::table_chart(cells), bench::SvgUse::kFile)},
-  };
+  const auto pictures =
+      SIPPLAB_TRY_OR(fail, bench::pictures_of({bench::figure_chart(cells), bench::table_chart(cells)},
+                                              bench::PictureFormat::kSvg));
+  const std::string page = SIPPLAB_TRY_OR(fail, bench::reproduction_page(cells, source));
+  const std::pair<const char*, const std::string&> files[] = {
+      {"index.html", page}, {"figure1.svg", pictures[0]}, {"table1.svg", pictures[1]}};
   for (const auto& [name, text] : files) {
     if (const auto failed = write_file((fs::path(folder) / name).string(), text)) {
       return fail(failed->message());
@@ -87,6 +88,9 @@ int judge(const ReproduceArguments& arguments, const fs::path& database, const s
 
 int run_reproduce(const ReproduceArguments& given) {
   ReproduceArguments arguments = given;
+  if (arguments.folder) {
+    if (const auto error = bench::find_gnuplot_error()) return fail(*error);
+  }
   if (arguments.run) return judge(arguments, db::database_path(arguments.sweep.database), *arguments.run);
   arguments.sweep.suite = arguments.quick ? "paper-quick" : "paper";
   arguments.sweep.quiet = true;

@@ -48,13 +48,19 @@ int present(const SolversArguments& arguments, const fs::path& database,
   const fs::path folder = *arguments.folder;
   std::string source = "runs";
   for (const std::string& run : runs) source += " " + run;
-  if (const auto error = write_file((folder / "index.html").string(), bench::solvers_page(rows, source))) {
-    return fail(error->message());
+  const std::string page = SIPPLAB_TRY_OR(fail, bench::solvers_page(rows, source));
+  if (const auto error = write_file((folder / "index.html").string(), page)) return fail(error->message());
+  std::vector<std::string> names;
+  std::vector<bench::Chart> charts;
+  for (auto& [name, chart] : bench::solver_charts(rows)) {
+    names.push_back(name);
+    charts.push_back(std::move(chart));
   }
-  for (const auto& [name, chart] : bench::solver_charts(rows)) {
-    const std::string text = bench::svg(chart, bench::SvgUse::kFile);
-    if (const auto error = write_file((folder / (name + ".svg")).string(), text))
+  const auto pictures = SIPPLAB_TRY_OR(fail, bench::pictures_of(charts, bench::PictureFormat::kSvg));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto error = write_file((folder / (names[i] + ".svg")).string(), pictures[i])) {
       return fail(error->message());
+    }
   }
   diagnose("written: " + (folder / "index.html").string());
   return kSuccess;

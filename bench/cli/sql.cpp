@@ -1,7 +1,9 @@
 // sipplab sql: one question to the history, in SQL. It can only read.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "db/database.hpp"
 #include "db/queries.hpp"
 #include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -20,6 +23,7 @@ namespace {
 struct SqlArguments {
   HistoryFlags history;
   std::string query;
+  std::optional<std::string> file;
   std::vector<std::string> parameters;
   bool list = false;
 };
@@ -47,7 +51,14 @@ int list_views(const SqlArguments& arguments) {
 
 int run_sql_command(const SqlArguments& arguments) {
   if (arguments.list) return list_views(arguments);
-  if (arguments.query.empty()) return bad_usage("no query, expected a SELECT statement or --list");
+  std::string query = arguments.query;
+  const bool from_input = query == "-" || (query.empty() && !arguments.file && isatty(STDIN_FILENO) == 0);
+  if (arguments.file || from_input) {
+    query = SIPPLAB_TRY_OR(fail, read_text(arguments.file ? *arguments.file : "/dev/stdin"));
+  }
+  if (query.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return bad_usage("no query, expected a SELECT statement, --file, standard input or --list");
+  }
   std::vector<std::pair<std::string, std::string>> parameters;
   for (const std::string& text : arguments.parameters) {
     const std::size_t equals = text.find('=');
@@ -56,8 +67,8 @@ int run_sql_command(const SqlArguments& arguments) {
     }
     parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
-  const auto table = SIPPLAB_TRY_OR(
-      fail, db::run_sql(db::database_path(arguments.history.database), arguments.query, parameters));
+  const auto table =
+      SIPPLAB_TRY_OR(fail, db::run_sql(db::database_path(arguments.history.database), query, parameters));
   arguments.history.show(table);
   return kSuccess;
 }
@@ -69,7 +80,11 @@ Command add_sql_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("sql", "query the history in SQL; --list shows the views with examples");
   arguments->history.add_to(*command);
-  CLI::Option* query = command->add_option("query", arguments->query, "one SELECT statement");
+  CLI::Option* query = command->add_option("query", arguments->query,
+                                           "one SELECT statement; - or none: read from standard input");
+  command->add_option("-f,--file", arguments->file, "read the statement from this file")
+      ->excludes(query)
+      ->type_name("FILE");
   command->add_flag("--list", arguments->list, "list the views, with an example of each")->excludes(query);
   command
       ->add_option("--param", arguments->parameters,

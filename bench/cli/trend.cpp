@@ -59,8 +59,9 @@ int run_trend(const TrendArguments& arguments) {
   }
   db::mark_changes(series, *query.metric, arguments.rules);
   if (arguments.svg) {
-    const std::string picture = bench::svg(bench::trend_chart(*query.metric, series), bench::SvgUse::kFile);
-    if (const auto error = write_file(*arguments.svg, picture)) return fail(error->message());
+    const auto picture = SIPPLAB_TRY_OR(
+        fail, bench::pictures_of({bench::trend_chart(*query.metric, series)}, bench::PictureFormat::kSvg));
+    if (const auto error = write_file(*arguments.svg, picture.front())) return fail(error->message());
   }
   print(arguments.json ? db::json_text(bench::trend_json(*query.metric, series))
                        : bench::trend_text(*query.metric, series, arguments.rows));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/judge/report.hpp"
+#include "bench/present/html_table.hpp"
 #include "bench/present/named_row.hpp"
 #include "bench/present/numbers.hpp"
 #include "bench/present/template.hpp"
@@ -31,28 +32,24 @@ std::string minute(const std::string& utc) {
   return text;
 }
 
-struct Cell {
-  std::string text;
-  std::string style;  ///< class
-};
-
 class Page {
  public:
   explicit Page(const ReportData& data) : data_(data) {}
 
-  std::string write(const std::vector<DensityChart>& charts) {
+  Expected<std::string, std::string> write(const std::vector<DensityChart>& charts) {
     const db::RunSummary& run = data_.run.run;
     const std::string uuid = run.uuid.substr(0, kShortUuid);
-    return filled_page(report_template(), "sipplab: run " + uuid,
-                       {{"suite", xml_escaped(run.suite)},
-                        {"run", uuid},
-                        {"facts", part([&] { facts(); })},
-                        {"density", part([&] { density(charts); })},
-                        {"base", part([&] { against_base(); })},
-                        {"flips", part([&] { flips(); })},
-                        {"trends", part([&] { trends(); })},
-                        {"properties", part([&] { properties(); })},
-                        {"fuzzing", part([&] { fuzzing(); })}});
+    return with_pictures(filled_page(report_template(), "sipplab: run " + uuid,
+                                     {{"suite", xml_escaped(run.suite)},
+                                      {"run", uuid},
+                                      {"facts", part([&] { facts(); })},
+                                      {"density", part([&] { density(charts); })},
+                                      {"base", part([&] { against_base(); })},
+                                      {"flips", part([&] { flips(); })},
+                                      {"trends", part([&] { trends(); })},
+                                      {"properties", part([&] { properties(); })},
+                                      {"fuzzing", part([&] { fuzzing(); })}}),
+                         charts_);
   }
 
  private:
@@ -62,6 +59,10 @@ class Page {
     text_.clear();
     write();
     return std::move(text_);
+  }
+  void draw(Chart chart) {
+    text_ += picture_place(charts_.size());
+    charts_.push_back(std::move(chart));
   }
   void note(const std::string& words) {
     text_ += fmt::format("<p class=\"note\">{}</p>\n", xml_escaped(words));
@@ -98,28 +99,9 @@ class Page {
     if (charts.empty()) note("This run has no finished case.");
     if (data_.base && !data_.against_base.cells.empty()) note("Dashed: the base.");
     text_ += "<div class=\"charts\">\n";
-    for (const DensityChart& density : charts) text_ += svg(density.chart, SvgUse::kInline);
+    for (const DensityChart& density : charts) draw(density.chart);
     text_ += "</div>\n";
   }
-
-  void open_table(const std::vector<std::string>& heading, const std::string& numbers) {
-    text_ += "<div class=\"scroll\"><table><thead><tr>";
-    for (std::size_t i = 0; i < heading.size(); ++i) {
-      text_ += fmt::format("<th{}>{}</th>", numbers[i] == 'n' ? " class=\"n\"" : "", heading[i]);
-    }
-    text_ += "</tr></thead><tbody>\n";
-  }
-  void row(const std::vector<Cell>& cells, const std::string& numbers) {
-    text_ += "<tr>";
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      std::string style = numbers[i] == 'n' ? "n" : numbers[i] == 'w' ? "wrap" : "";
-      if (!cells[i].style.empty()) style += (style.empty() ? "" : " ") + cells[i].style;
-      text_ += fmt::format("<td{}>{}</td>", style.empty() ? "" : " class=\"" + style + "\"",
-                           xml_escaped(cells[i].text));
-    }
-    text_ += "</tr>\n";
-  }
-  void close_table() { text_ += "</tbody></table></div>\n"; }
 
   static std::string shown(const db::Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
@@ -153,24 +135,23 @@ class Page {
         "one machine only; no test judges it. sipplab compare tells more; sipplab gate decides about times.");
     const std::vector<TextRow> table = behaviour_table(judgement);
     const std::string kinds = "t" + std::string(table.front().size() - 1, 'n');
-    open_table(table.front(), kinds);
+    std::vector<std::vector<HtmlCell>> rows;
     for (std::size_t i = 1; i < table.size(); ++i) {
       std::optional<std::size_t> cell;
       if (i <= judgement.cells.size()) cell = i - 1;
-      std::vector<Cell> cells;
+      std::vector<HtmlCell>& cells = rows.emplace_back();
       for (std::size_t column = 0; column < table[i].size(); ++column) {
         cells.push_back({table[i][column], colour(judgement, table.front()[column], cell)});
       }
-      row(cells, kinds);
     }
-    close_table();
+    text_ += html_table(table.front(), rows, kinds);
   }
 
   /// A table of the history as it is.
   void plain_table(const db::Table& table, const std::string& kinds) {
-    open_table(table.columns, kinds);
+    std::vector<std::vector<HtmlCell>> rows;
     for (const auto& values : table.rows) {
-      std::vector<Cell> cells;
+      std::vector<HtmlCell>& cells = rows.emplace_back();
       for (std::size_t i = 0; i < values.size(); ++i) {
         std::string text = shown(values[i]);
         const std::string& column = table.columns[i];
@@ -182,9 +163,8 @@ class Page {
         }
         cells.push_back({std::move(text), std::move(style)});
       }
-      row(cells, kinds);
     }
-    close_table();
+    text_ += html_table(table.columns, rows, kinds);
   }
 
   /// The first rows, with a note if there are more.
@@ -206,19 +186,18 @@ class Page {
     if (flips.empty()) return note("No instance is solved by one of the two runs only.");
     if (flips.size() > kMostFlips) note(fmt::format("The first {}; v_flips has them all.", kMostFlips));
     flips.resize(std::min(flips.size(), kMostFlips));
-    open_table({"direction", "case", "instance", "base", "run"}, "ttttt");
+    std::vector<std::vector<HtmlCell>> rows;
     for (const Finding* flip : flips) {
       const std::string direction(heading(judgement, *flip));
-      row({{direction, direction == "lost"     ? "bad"
-                       : direction == "gained" ? "good"
-                                               : ""},
-           {judgement.cells[flip->cell].name, ""},
-           {judgement.result(*flip).instance, ""},
-           {flip->what.base, ""},
-           {flip->what.head, ""}},
-          "ttttt");
+      rows.push_back({{direction, direction == "lost"     ? "bad"
+                                  : direction == "gained" ? "good"
+                                                          : ""},
+                      {judgement.cells[flip->cell].name},
+                      {judgement.result(*flip).instance},
+                      {flip->what.base},
+                      {flip->what.head}});
     }
-    close_table();
+    text_ += html_table({"direction", "case", "instance", "base", "run"}, rows, "ttttt");
   }
 
   void trends() {
@@ -262,9 +241,9 @@ class Page {
       chart.title = series.instances.empty() ? series.label : series.label + ", " + series.instances;
       if (!series.context.empty()) chart.x_label = series.context;
       chart.width = 380;
-      chart.height = 200;
+      chart.height = 220;
       if (chart.x_ticks.size() > 2) chart.x_ticks = {chart.x_ticks.front(), chart.x_ticks.back()};
-      text_ += svg(chart, SvgUse::kInline);
+      draw(std::move(chart));
     }
     text_ += "</div>\n";
     if (constant > 0) note(fmt::format("{} series never changed and are not drawn.", constant));
@@ -293,11 +272,13 @@ class Page {
 
   const ReportData& data_;
   std::string text_;
+  std::vector<Chart> charts_;
 };
 
 }  // namespace
 
-std::string report_page(const ReportData& data, const std::vector<DensityChart>& charts) {
+Expected<std::string, std::string> report_page(const ReportData& data,
+                                               const std::vector<DensityChart>& charts) {
   return Page(data).write(charts);
 }
 

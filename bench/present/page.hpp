@@ -10,6 +10,8 @@
 
 namespace sipplab::bench {
 
-std::string report_page(const ReportData& data, const std::vector<DensityChart>& charts);
+/// Errors: as pictures_of().
+Expected<std::string, std::string> report_page(const ReportData& data,
+                                               const std::vector<DensityChart>& charts);
 
 }  // namespace sipplab::bench

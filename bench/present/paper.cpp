@@ -29,7 +29,7 @@ std::string paper_cells_sql() {
       "    count(*) AS runs, sum(status = 'solved') AS solved, sum(planning_time_s) AS seconds,"
       "    sum(CASE status WHEN 'solved' THEN makespan_s END) AS makespan_s,"
       "    sum(CASE status WHEN 'solved' THEN flowtime_s END) AS flowtime_s "
-      "  FROM v_results WHERE {} AND planner = :method GROUP BY 1, 2, 3, 4, 5, 6) "
+      "  FROM v_all_results WHERE {} AND planner = :method GROUP BY 1, 2, 3, 4, 5, 6) "
       "SELECT environment, robots, ssi_s, reschedule, initial_order, sum(runs) AS runs, sum(solved) AS "
       "solved,"
       "  sum(seconds) / sum(runs) AS mean_seconds, count(*) AS instances, sum(solved > 0) AS with_plan,"
@@ -287,7 +287,7 @@ Standing success_standing(const MeasuredCell& cell, double paper) {
 db::Result<std::string> method_of(const std::filesystem::path& database, const std::string& run) {
   const auto table = SIPPLAB_TRY(db::run_sql(
       database,
-      fmt::format("SELECT DISTINCT planner AS method FROM v_results WHERE {} ORDER BY 1", kPaperMaps),
+      fmt::format("SELECT DISTINCT planner AS method FROM v_all_results WHERE {} ORDER BY 1", kPaperMaps),
       {{"run", run}}));
   std::string names;
   for (const auto& row : table.rows) {

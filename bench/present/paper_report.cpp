@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "bench/present/html_table.hpp"
 #include "bench/present/numbers.hpp"
 #include "bench/present/template.hpp"
 #include "db/aligned.hpp"
@@ -91,25 +93,19 @@ Words figure_words(const std::vector<MeasuredCell>& cells) {
 constexpr std::size_t kLongestUnwrapped = 60;
 
 std::string html_table(const Words& words) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (const std::string& column : words.columns) html += "<th>" + xml_escaped(column) + "</th>";
-  html += "</tr></thead>\n<tbody>\n";
+  std::vector<std::vector<HtmlCell>> rows;
+  std::string kinds(words.columns.size(), 't');
   for (const auto& row : words.rows) {
-    html += "<tr>";
-    for (const std::string& cell : row) {
+    std::vector<HtmlCell>& cells = rows.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string& cell = row[i];
       const bool good = cell.ends_with(" reproduced") || cell.ends_with(" better") || cell == "holds";
       const bool bad = cell.ends_with(" differs") || cell == "FAILS";
-      const bool long_words = cell.size() > kLongestUnwrapped && !good && !bad;
-      html += fmt::format("<td class=\"{}\">{}</td>",
-                          bad          ? "bad"
-                          : good       ? "good"
-                          : long_words ? "wrap"
-                                       : "",
-                          xml_escaped(cell));
+      if (cell.size() > kLongestUnwrapped && !good && !bad) kinds[i] = 'w';
+      cells.push_back({cell, bad ? "bad" : good ? "good" : ""});
     }
-    html += "</tr>\n";
   }
-  return html + "</tbody>\n</table></div>\n";
+  return html_table(words.columns, rows, kinds);
 }
 
 constexpr const char* kLegend =
@@ -121,7 +117,10 @@ constexpr const char* kLegend =
 
 /// Points in order, and a label for each number of robots.
 void finish(Chart& chart) {
-  for (ChartLine& line : chart.lines) std::sort(line.points.begin(), line.points.end());
+  for (ChartLine& line : chart.lines)
+    std::sort(line.points.begin(), line.points.end(), [](const ChartPoint& a, const ChartPoint& b) {
+      return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    });
   label_points(chart);
 }
 
@@ -198,7 +197,9 @@ Chart figure_chart(const std::vector<MeasuredCell>& cells) {
   std::map<double, ChartLine> lines;
   for (const MeasuredCell& cell : cells) {
     if (cell.environment != "empty" || cell.reschedule != "none" || cell.order != "shortest") continue;
-    lines[cell.ssi_s].points.emplace_back(static_cast<double>(cell.robots), cell.success());
+    const db::statistics::ConfidenceInterval interval = cell.success_interval();
+    lines[cell.ssi_s].points.push_back(
+        {static_cast<double>(cell.robots), cell.success(), false, std::pair{interval.low, interval.high}});
   }
   int colour = 0;
   for (auto& [ssi_s, line] : lines) {
@@ -218,7 +219,7 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
   chart.log_y = true;
   std::map<std::string, ChartLine> lines;
   const auto add = [&lines](const std::string& label, double count, double seconds) {
-    if (seconds > 0) lines[label].points.emplace_back(count, seconds);
+    if (seconds > 0) lines[label].points.push_back({count, seconds, false, std::nullopt});
   };
   for (const MeasuredCell& cell : cells) {
     constexpr double kTableSsiS = 5;
@@ -243,15 +244,17 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
   return chart;
 }
 
-std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source) {
-  return filled_page(reproduction_template(), "AAMAS 2018, reproduced",
-                     {{"source", xml_escaped(source)},
-                      {"claims", html_table(claim_words(cells))},
-                      {"figure", svg(figure_chart(cells), SvgUse::kInline)},
-                      {"figure_table", html_table(figure_words(cells))},
-                      {"table_chart", svg(table_chart(cells), SvgUse::kInline)},
-                      {"table", html_table(table_words(cells))},
-                      {"legend", kLegend}});
+Expected<std::string, std::string> reproduction_page(const std::vector<MeasuredCell>& cells,
+                                                     const std::string& source) {
+  return with_pictures(filled_page(reproduction_template(), "AAMAS 2018, reproduced",
+                                   {{"source", xml_escaped(source)},
+                                    {"claims", html_table(claim_words(cells))},
+                                    {"figure", picture_place(0)},
+                                    {"figure_table", html_table(figure_words(cells))},
+                                    {"table_chart", picture_place(1)},
+                                    {"table", html_table(table_words(cells))},
+                                    {"legend", kLegend}}),
+                       {figure_chart(cells), table_chart(cells)});
 }
 
 bool is_reproduced(const std::vector<MeasuredCell>& cells) {

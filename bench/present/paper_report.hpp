@@ -24,8 +24,10 @@ Chart figure_chart(const std::vector<MeasuredCell>& cells);
 /// re-scheduling; dashed: the paper's, from another machine.
 Chart table_chart(const std::vector<MeasuredCell>& cells);
 
-/// An HTML page that needs nothing else; `source` says which run of which build it shows.
-std::string reproduction_page(const std::vector<MeasuredCell>& cells, const std::string& source);
+/// An HTML page that needs nothing else; `source` says which run of which build it shows. Errors: as
+/// pictures_of().
+Expected<std::string, std::string> reproduction_page(const std::vector<MeasuredCell>& cells,
+                                                     const std::string& source);
 
 /// Whether nothing that was measured differs from the paper and every claim that could be
 /// checked holds.

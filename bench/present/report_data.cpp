@@ -58,7 +58,7 @@ db::Result<Judgement> judged_against_base(const std::filesystem::path& path, db:
 
 db::Result<std::set<std::int64_t>> cases_of(const std::filesystem::path& path, const std::string& run) {
   const auto table =
-      SIPPLAB_TRY(db::run_sql(path, "SELECT case_id FROM v_run_cells WHERE run = :run", {{"run", run}}));
+      SIPPLAB_TRY(db::run_sql(path, "SELECT case_id FROM v_all_run_cells WHERE run = :run", {{"run", run}}));
   std::set<std::int64_t> cases;
   for (const auto& row : table.rows) cases.insert(NamedRow(table, row).integer("case_id"));
   return cases;

@@ -76,7 +76,7 @@ Chart chart_of(const db::Table& rows, const std::string& environment, std::strin
     const std::string planner = cell_text(row[2]);
     ChartLine& line = lines[planner];
     line.label = planner;
-    line.points.emplace_back(number_of(row[1]), number_of(row[column_of(rows, column)]));
+    line.points.push_back({number_of(row[1]), number_of(row[column_of(rows, column)])});
   }
   for (auto& [planner, line] : lines) {
     line.colour = static_cast<int>(chart.lines.size() % kMostChartLines);
@@ -116,11 +116,17 @@ std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows) 
   return charts;
 }
 
-std::string solvers_page(const db::Table& rows, const std::string& source) {
-  std::string charts;
-  for (const auto& [name, chart] : solver_charts(rows)) charts += svg(chart, SvgUse::kInline);
-  return filled_page(solvers_template(), "Planners side by side",
-                     {{"source", xml_escaped(source)}, {"charts", charts}, {"table", table_html(rows)}});
+Expected<std::string, std::string> solvers_page(const db::Table& rows, const std::string& source) {
+  std::string places;
+  std::vector<Chart> charts;
+  for (auto& [name, chart] : solver_charts(rows)) {
+    places += picture_place(charts.size());
+    charts.push_back(std::move(chart));
+  }
+  return with_pictures(
+      filled_page(solvers_template(), "Planners side by side",
+                  {{"source", xml_escaped(source)}, {"charts", places}, {"table", table_html(rows)}}),
+      charts);
 }
 
 }  // namespace sipplab::bench

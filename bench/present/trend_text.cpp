@@ -261,14 +261,14 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
     ChartLine line;
     line.colour = static_cast<int>(chart.lines.size());
     if (drawn.size() > 1) line.label = short_label(one);
-    for (const db::TrendPoint& point : one.points) line.points.emplace_back(x_of(point), point.value);
+    for (const db::TrendPoint& point : one.points)
+      line.points.push_back({x_of(point), point.value, false, std::nullopt});
     for (const db::TrendChange& change : one.changes) {
       const db::TrendPoint& point = one.points[change.position];
       // Between the points: the level is another from this one on.
       const std::string effect =
           version_name(point) + " " + signed_share(db::effect_of(change, metric), metric.rate);
-      line.marks.push_back({x_of(point) - 0.5, drawn.size() > 1 ? "" : effect,
-                            version_name(point) + ": " + change_text(metric, change)});
+      line.marks.push_back({x_of(point) - 0.5, drawn.size() > 1 ? "" : effect});
     }
     chart.lines.push_back(std::move(line));
   }

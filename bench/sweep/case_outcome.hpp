@@ -25,6 +25,7 @@ class CaseOutcome {
   double mean_tries() const { return mean(tries_); }
   double mean_expansions() const { return mean(expansions_); }
   /// Means over solved results; none if nothing was solved.
+  std::optional<double> mean_solved_planning_s() const { return mean_of_solved(solved_planning_s_); }
   std::optional<double> mean_makespan_s() const { return mean_of_solved(makespan_s_); }
   std::optional<double> mean_flowtime_s() const { return mean_of_solved(flowtime_s_); }
 
@@ -40,6 +41,7 @@ class CaseOutcome {
   std::int64_t limited_ = 0;
   std::int64_t invalid_ = 0;
   double planning_s_ = 0;
+  double solved_planning_s_ = 0;
   double tries_ = 0;
   double expansions_ = 0;
   double makespan_s_ = 0;
@@ -56,6 +58,7 @@ inline void CaseOutcome::add(const db::ResultRow& row) {
   invalid_ += row.status == db::ResultStatus::kInvalid ? 1 : 0;
   if (row.status != db::ResultStatus::kSolved) return;
   ++solved_;
+  solved_planning_s_ += static_cast<double>(row.planning_time_ns) * kSecondsPerNanosecond;
   makespan_s_ += row.makespan_s.value_or(0);
   flowtime_s_ += row.flowtime_s.value_or(0);
 }

@@ -463,6 +463,7 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
                    .give_up = [] { return interrupted_by() != 0; },
                    .memory_limit_bytes = spec_.memory_limit_mib * kBytesPerMib});
   row.planning_time_ns = std::llround(run.wall_time_s * kNanosecondsPerSecond);
+  row.cpu_time_ns = std::llround(run.cpu_time_s * kNanosecondsPerSecond);
   if (run.peak_memory_bytes > 0) row.peak_memory_bytes = run.peak_memory_bytes;
   if (!run.started) return Unexpected{std::string(kShell) + " cannot be started"};
   if (run.timed_out) {

@@ -1,6 +1,7 @@
 #include "bench/sweep/run_instance.hpp"
 
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -136,6 +137,14 @@ db::ResultRow judged(const Instance& instance, const PlannerOptions& options, co
 
 namespace {
 
+/// Of all threads of this process.
+std::optional<std::int64_t> cpu_time_ns() {
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  timespec time{};
+  if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) != 0) return std::nullopt;
+  return time.tv_sec * kNanosecondsPerSecond + time.tv_nsec;
+}
+
 std::vector<db::ProgressRow> progress_rows(const SolveResult& solved) {
   std::vector<db::ProgressRow> rows;
   const ImprovementLog& log = solved.improvement->log;
@@ -159,10 +168,13 @@ std::vector<db::ProgressRow> progress_rows(const SolveResult& solved) {
 
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options, bool retimed) {
   const InstructionCount instructions;
+  const std::optional<std::int64_t> cpu_before_ns = cpu_time_ns();
   const SolveResult solved = solve(instance, options);
+  const std::optional<std::int64_t> cpu_after_ns = cpu_time_ns();
   const std::optional<std::int64_t> counted = instructions.count();
   db::ResultRow row = described(options, solved.plan);
   row.instructions = counted;
+  if (cpu_before_ns && cpu_after_ns) row.cpu_time_ns = *cpu_after_ns - *cpu_before_ns;
   row.planning_time_ns = nanoseconds(solved.seconds());
   row.expansions = solved.statistics().expansions;
   row.generations = solved.statistics().generations;
@@ -178,6 +190,8 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   if (!solved.improvement) return row;
   if (solved.improvement->log.was_cut_short) row.limit = "time";
   row.progress = progress_rows(solved);
+  row.flowtime_bound_s = solved.improvement->log.bound.flowtime_s;
+  row.makespan_bound_s = solved.improvement->log.bound.makespan_s;
   return row;
 }
 

@@ -5,9 +5,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bench/sweep/case_outcome.hpp"
@@ -15,6 +17,7 @@
 #include "bench/sweep/expand.hpp"
 #include "bench/sweep/progress.hpp"
 #include "db/recorder.hpp"
+#include "planner/improve/static_times.hpp"
 
 namespace sipplab::bench {
 
@@ -75,10 +78,13 @@ class Sweep {
   void measure(benchmark::State& state, SweepEntry& entry, bool fill_counters);
   bool stopping() const;
   Expected<db::ResultRow, std::string> plan_one(const PreparedInstance& prepared,
-                                                const SweepCase& parameters) const;
+                                                const SweepCase& parameters);
+  /// Computed once for all cases and repetitions.
+  const LowerBound& bound_of(const PreparedInstance& prepared, const PlannerOptions& options);
 
   std::vector<InstanceSet> sets_;
   std::vector<SweepEntry> entries_;
+  std::map<std::tuple<const PreparedInstance*, bool, int>, LowerBound> bounds_;
   Recording recording_;
   std::int64_t repetitions_;
   Progress progress_;

@@ -336,7 +336,8 @@ equal "$(wc -l <err)" 1 "lines on stderr with stdout closed"
 mkfifo gone
 exec 5<>gone 4>gone 5>&-
 "$sipplab" plan --instance warehouse/0.xml --json 2>err >&4
-equal "$?" 2 "exit code when the reader has gone"
+equal "$?" 141 "exit code when the reader has gone"
+equal "$(cat err)" '' "words when the reader has gone"
 exec 4>&-
 
 # A disk that fills up during a sweep, where a small one can be mounted.

@@ -49,6 +49,9 @@ refused 'none.db: no such file' merge none.db --db fresh.db
 
 rm -f sipplab.db*
 for _ in 1 2; do bench; done
+equal "$(ask "SELECT count(*) > 0, sum(flowtime_bound_s IS NULL), sum(status = 'solved' AND flowtime_gap IS NULL), sum(cpu_time_s IS NULL),
+  sum(flowtime_s < flowtime_bound_s - 1e-9), sum(makespan_s < makespan_bound_s - 1e-9) FROM v_results")" '1|0|0|0|0|0' \
+  'bounds of every instance that was planned, below every cost; processor time of every planning'
 # Ten more versions of the newest run, of which the last five solve one instance less, measured in some
 # other order. Plain SQL, as a user would: the doctor has to notice that summaries are missing.
 for version in 1 2 3 4 5 6 7 8 9 10; do
@@ -64,7 +67,7 @@ for version in 1 2 3 4 5 6 7 8 9 10; do
       SELECT (SELECT max(id) FROM run), case_id, finished_utc, result_count FROM cell WHERE run_id = 2;
     INSERT INTO result SELECT new.id, instance_id, position, repetition,
              iif($version > 5 AND position = 0, 1, status), planning_time_ns, makespan_s, flowtime_s, tries, expansions,
-             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions
+             generations, plan_hash, valid, violations, min_clearance_cells, peak_memory_bytes, limit_struck, message, made_by, ssi_kept_s, instructions, cpu_time_ns
       FROM cell AS old JOIN result ON result.cell_id = old.id
       JOIN cell AS new ON new.case_id = old.case_id AND new.run_id = (SELECT max(id) FROM run) WHERE old.run_id = 2;"
 done
@@ -86,7 +89,7 @@ equal "$(grep -cE '^[01][0-9]0{8}\+? ' out)" 10 "versions in the table"
 grep -oE '^[01][0-9]0{8}\+? ' out | sort -c || complain "versions are not in the order of commits"
 expect 0 trend success --svg trend.svg --json
 says '"after": 0.666'
-says '<polyline' trend.svg
+says '<path' trend.svg
 says '</svg>' trend.svg
 expect 0 trend runtime --rows 3
 expect 0 trend success --case 1 --min-effect 0.5
@@ -120,6 +123,16 @@ fi
 expect 0 report -o report --json
 says '"base"'
 refused 'expected latest, a UUID' report xyz -o report
+# Two runs of one program: plans are equal, times are not, and no test judges those. Nothing is marked.
+rm -rf one.db two
+bench --db one.db
+bench --db one.db
+ask "UPDATE result SET planning_time_ns = planning_time_ns * 3 WHERE cell_id IN (SELECT id FROM cell WHERE run_id = 2)" one.db
+expect 0 doctor --fix --db one.db
+expect 0 report --db one.db -o two
+says 'same: all [0-9]+ plannings' two/index.html
+sed -n '/id="base"/,/id="trends"/p' two/index.html >part
+grep -nE 'class="[^"]*(bad|good)' part >marked && complain "something is marked between two runs of one program: $(head -3 marked)"
 refused 'is a file|File exists|Not a directory|expected a folder' report -o trend.svg/x
 
 # --- imports -----------------------------------------------------------------------------
@@ -196,6 +209,20 @@ refused 'parameter @x, expected one that begins with a colon' sql 'SELECT @x'
 refused 'parameter y, expected one that stands as :y' sql 'SELECT 1' --param y=1
 refused "expected NAME=VALUE" sql 'SELECT 1' --param y
 refused 'no query' sql
+printf -- '-- from a file\nSELECT 40 + :y AS from_file;\n' >q.sql
+expect 0 sql --file q.sql --param y=2 --format csv
+says '^42'
+"$sipplab" sql --format csv <q.sql >out 2>err --param y=3 || complain "sql does not read standard input: $(cat err)"
+says '^43'
+"$sipplab" sql - --format csv <q.sql >out 2>err --param y=4 || complain "sql - does not read standard input: $(cat err)"
+says '^44'
+refused 'none.sql' sql --file none.sql
+refused 'no query' sql --file /dev/null
+# Who has seen enough goes away: no word about it, and the code of a program that a pipe ends.
+"$sipplab" sql --format csv "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300000) SELECT * FROM n" 2>err |
+  head -1 >/dev/null
+equal "${PIPESTATUS[0]}" 141 'exit code with a closed pipe'
+equal "$(cat err)" '' 'words about a closed pipe'
 refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.
@@ -203,7 +230,7 @@ questions=0
 while IFS= read -r line; do
   questions=$((questions + 1))
   bash -c "$line" >out 2>err </dev/null || complain "the cookbook's '$line': $(head -c 300 err)"
-  [[ $line == *property* || $line == *finding* || $line == *v_progress* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
+  [[ $line == *property* || $line == *finding* || $line == *v_progress* || $line == *" plot "* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
 done < <(sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p' "$cookbook")
 [ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
 

@@ -92,6 +92,9 @@ equal "$(ask 'SELECT count(*) FROM v_progress p JOIN v_progress q USING (run, ca
     OR q.flowtime_s < q.flowtime_bound_s)')" 0 'curves fall, and not below the bound'
 equal "$(ask 'SELECT count(*) FROM (SELECT flowtime_s FROM v_progress GROUP BY repetition HAVING step = max(step))
   JOIN (SELECT DISTINCT flowtime_s FROM v_results) USING (flowtime_s)')" 2 'curves end at the plan'
+equal "$(ask 'SELECT count(*), sum(abs(p.flowtime_bound_s - r.flowtime_bound_s) > 1e-9 OR abs(p.makespan_bound_s - r.makespan_bound_s) > 1e-9)
+  FROM v_progress AS p JOIN v_results AS r USING (run, case_id, position, repetition)' | sed 's/^[1-9][0-9]*|/some|/')" 'some|0' \
+  'the bounds of improvement are those of the instance'
 equal "$(ask 'SELECT count(DISTINCT flowtime_s) FROM v_progress WHERE iteration = 0')" 2 \
   'curves begin with the plan of the complete planner, then that of another method'
 expect 0 "${sweep[@]}" --no-best --improve 0.05s --objective makespan

@@ -26,7 +26,7 @@ says '^32 +1\.00 +1\.00 +1\.00 +1\.00 +1\.00 *$'
 says '^32 +deterministic +2 +1\.000 \[0\.342, 1\.000\] \(1\.00\) reproduced'
 says '^16 +deterministic +0 +not measured'
 says '^fig1-a +not measured'
-equal "$(ask "SELECT suite, count(*) FROM v_results JOIN v_runs ON v_runs.run = v_results.run GROUP BY suite")" \
+equal "$(ask "SELECT suite, count(*) FROM v_results GROUP BY suite")" \
   'paper-quick|16' 'what was planned'
 grep -q '<svg' page/index.html || complain 'no figure on the page'
 grep -q '<svg' page/figure1.svg || complain 'no figure1.svg'
@@ -49,6 +49,25 @@ expect 0 plot table1 "$planned" -o table1.svg
 cmp -s table1.svg page/table1.svg || complain 'plot table1 draws another picture than the page'
 expect 0 plot figure1
 says '<svg'
+expect 0 plot success latest -o success.pdf
+equal "$(head -c 5 success.pdf)" '%PDF-' 'a picture as PDF'
+for picture in runtime cactus box-runtime box-flowtime box-makespan; do
+  expect 0 plot "$picture" --run latest --run "$planned" --case environment=warehouse -o picture.svg
+  says '</svg>' picture.svg
+  says 'runs? [0-9a-f]{8} ' picture.svg
+done
+refused 'picture.png.*expected a name that ends in .svg or .pdf' plot success -o picture.png
+refused "'pie'|pie" plot pie
+refused 'expected two of them, and a scatter plot' plot success --side ssi=0
+expect 4 plot scatter latest --case ssi=5,reschedule=random,order=shortest,environment=warehouse
+says 'expected two runs, or --side twice' err
+expect 0 plot scatter-flowtime latest --side reschedule=deterministic --side reschedule=random -o picture.svg
+says 'reschedule=random' picture.svg
+expect 4 plot improvement
+runs 2 env PATH=/nowhere "$sipplab" plot success -o absent.svg
+equal "$(wc -l <err)" 1 'lines without gnuplot'
+says 'no program gnuplot here.*gnuplot-nox' err
+[ ! -e absent.svg ] || complain 'a picture without gnuplot'
 expect 0 plot runtime latest --case environment=warehouse --case reschedule=deterministic
 says '<svg'
 says 'warehouse, .*deterministic'

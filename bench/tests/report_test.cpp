@@ -5,8 +5,9 @@
 
 #include "bench/present/chart.hpp"
 #include "bench/present/density.hpp"
+#include "bench/present/html_table.hpp"
 #include "bench/present/numbers.hpp"
-#include "bench/present/runtime_chart.hpp"
+#include "bench/present/plots.hpp"
 #include "bench/present/trend_text.hpp"
 
 namespace sipplab::bench {
@@ -38,13 +39,13 @@ TEST(Sparkline, shows_low_and_high) {
 
 Chart sample_chart() {
   Chart chart;
-  chart.title = "a < b & \"c\"";
+  chart.title = "it's `date` @x \"c\" <b>";
   chart.x_label = "robots";
   chart.y_label = "share";
   ChartLine line;
   line.label = "ssi 3";
-  line.points = {{16, 1.0}, {32, 0.5}, {64, 0}};
-  line.marks = {{24, "1a2b", "from here on"}};
+  line.points = {{16, 1.0}, {32, 0.5}, {64, 0, true}};
+  line.marks = {{24, "1a2b"}};
   chart.lines.push_back(line);
   return chart;
 }
@@ -55,78 +56,139 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST(Charts, show_every_point_and_escape_what_is_written) {
-  const std::string picture = svg(sample_chart(), SvgUse::kFile);
-  EXPECT_EQ(count(picture, "<circle"), 3U);
-  EXPECT_EQ(count(picture, "<polyline"), 1U);
-  EXPECT_NE(picture.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
-  EXPECT_NE(picture.find("from here on"), std::string::npos);
-  EXPECT_NE(picture.find(">ssi 3</text>"), std::string::npos);
-  EXPECT_EQ(picture.find("nan"), std::string::npos);
+std::string script_of(const Chart& chart) { return gnuplot_script(chart, PictureFormat::kSvg, "out"); }
+
+std::string picture_of(const Chart& chart, PictureFormat format = PictureFormat::kSvg) {
+  const auto pictures = pictures_of({chart}, format);
+  EXPECT_TRUE(pictures) << pictures.error();
+  return pictures ? pictures->front() : "";
+}
+
+TEST(Charts, hold_every_point_and_no_name_is_a_command) {
+  const std::string script = script_of(sample_chart());
+  EXPECT_NE(script.find("'it''s `date` @x \"c\" <b>'"), std::string::npos) << script;
+  EXPECT_NE(script.find("\n16 1 1 1\n32 0.5 0.5 0.5\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("$line0_hollow << EOD\n64 0 0 0\nEOD"), std::string::npos) << script;
+  Chart named = sample_chart();
+  named.lines[0].label = "a\nplot 'b'";
+  EXPECT_EQ(script_of(named).find("\nplot 'b'"), std::string::npos) << "a name ends no line";
+}
+
+TEST(Charts, are_drawn_as_a_file_within_a_page_and_as_pdf) {
+  const std::string file = picture_of(sample_chart());
+  EXPECT_NE(file.find("<title>it's `date` @x &quot;c&quot; &lt;b&gt;</title>"), std::string::npos)
+      << file.substr(0, 600);
+  EXPECT_EQ(count(file, "<title>"), 1U) << "nothing that gnuplot calls its parts";
+  EXPECT_NE(file.find("ssi 3"), std::string::npos);
+  const auto page =
+      with_pictures(picture_place(1) + "|" + picture_place(0), {sample_chart(), sample_chart()});
+  ASSERT_TRUE(page);
+  EXPECT_EQ(count(*page, "<?xml"), 0U);
+  EXPECT_EQ(count(*page, "<svg"), 2U);
+  for (const char* own : {"'c0_gpPt", "'c1_gpPt", "#c0_gpPt", "#c1_gpPt"}) {
+    EXPECT_NE(page->find(own), std::string::npos) << "two pictures of a page share no name: " << own;
+  }
+  EXPECT_EQ(count(*page, "'gpPt") + count(*page, "#gpPt"), 0U);
+  EXPECT_EQ(picture_of(sample_chart(), PictureFormat::kPdf).substr(0, 5), "%PDF-");
+  EXPECT_EQ(picture_format("a.pdf"), PictureFormat::kPdf);
+  EXPECT_EQ(picture_format("a.svg"), PictureFormat::kSvg);
+  EXPECT_EQ(picture_format("svg"), std::nullopt);
 }
 
 TEST(Charts, draw_nothing_and_single_points_and_constants) {
   Chart chart = sample_chart();
   chart.lines[0].points.clear();
-  EXPECT_NE(svg(chart, SvgUse::kFile).find("nothing to show"), std::string::npos);
+  EXPECT_TRUE(is_empty(chart));
+  EXPECT_NE(picture_of(chart).find("nothing to show"), std::string::npos);
   for (const bool log : {false, true}) {
     chart.log_y = log;
-    chart.lines[0].points = {{5, 2}};
-    EXPECT_EQ(svg(chart, SvgUse::kFile).find("nan"), std::string::npos);
-    chart.lines[0].points = {{5, 0}, {6, 0}};
-    EXPECT_EQ(svg(chart, SvgUse::kFile).find("nan"), std::string::npos);
+    for (const double y : {2.0, 0.0}) {
+      chart.lines[0].points = {{5, y}, {6, y}};
+      EXPECT_EQ(is_empty(chart), log && y == 0);
+      EXPECT_EQ(picture_of(chart).find("nan"), std::string::npos);
+      chart.lines[0].points.pop_back();
+      EXPECT_EQ(picture_of(chart).find("nan"), std::string::npos);
+    }
   }
 }
 
-TEST(Charts, ring_the_points_of_dashed_lines) {
+TEST(Charts, ticks_of_near_values_differ) {
+  Chart chart = sample_chart();
+  chart.lines[0].points = {{1, 1127.0001}, {2, 1127.0002}, {3, 1127.0004}};
+  const std::string picture = picture_of(chart);
+  EXPECT_EQ(count(picture, ">1127</"), 0U) << picture;
+  EXPECT_GT(count(picture, ">1127.0"), 2U);
+}
+
+TEST(Charts, show_each_of_lines_that_coincide) {
   Chart chart = sample_chart();
   chart.lines.push_back(chart.lines[0]);
-  chart.lines[1].dashed = true;
-  chart.lines[1].label = "";
-  const std::string picture = svg(chart, SvgUse::kFile);
-  EXPECT_EQ(count(picture, "r=\"2.5\""), 3U);
-  EXPECT_EQ(count(picture, "r=\"4.5\" fill=\"none\""), 3U) << "to be seen around dots in the same place";
-  EXPECT_EQ(count(picture, "<title>: "), 0U);
+  chart.lines[1].colour = 1;
+  EXPECT_NE(script_of(chart).find("linewidth 2.40"), std::string::npos) << "the lower one is wider";
+  chart.lines[1].points = {{16, 0.9}, {32, 0.4}, {64, 0.1}};
+  EXPECT_EQ(script_of(chart).find("linewidth 2.40"), std::string::npos);
 }
 
 TEST(Charts, label_only_the_ticks_that_have_room) {
   Chart chart = sample_chart();
   chart.lines[0].points = {{-9, 1}, {320, 2}};
   chart.x_ticks = {{-9, "-9"}, {16, "16"}, {17, "17"}, {320, "320"}};
-  const std::string picture = svg(chart, SvgUse::kFile);
-  for (const char* shown : {">-9<", ">17<", ">320<"}) {
-    EXPECT_NE(picture.find(shown), std::string::npos) << shown;
+  const std::string script = script_of(chart);
+  for (const char* shown : {"'-9' -9", "'17' 17", "'320' 320", "'' 16"}) {
+    EXPECT_NE(script.find(shown), std::string::npos) << shown << "\n" << script;
   }
-  EXPECT_EQ(picture.find(">16<"), std::string::npos);
+}
+
+TEST(HtmlTables, escape_texts_and_say_kinds_and_styles) {
+  EXPECT_EQ(
+      html_table({"a<b", "n"}, {{{"<i>", "bad"}, {"1"}}}, "wn"),
+      "<div class=\"scroll\"><table><thead><tr><th>a&lt;b</th><th class=\"n\">n</th></tr></thead><tbody>\n"
+      "<tr><td class=\"wrap bad\">&lt;i&gt;</td><td class=\"n\">1</td></tr>\n"
+      "</tbody></table></div>\n");
+}
+
+db::CellSummary measured_cell(const std::string& environment, std::int64_t robots, double median_s,
+                              std::int64_t solved = 10) {
+  db::CellSummary cell;
+  cell.parameters.environment = environment;
+  cell.parameters.robots = robots;
+  cell.parameters.options["ssi_s"] = 5.0;
+  cell.parameters.options["reschedule"] = "none";
+  cell.parameters.options["initial_order"] = "fifo";
+  cell.parameters.planner = "sipplab";
+  cell.results = 10;
+  cell.solved = solved;
+  cell.success_rate = static_cast<double>(solved) / 10;
+  cell.median_planning_time_s = 1e-9;  // of failures, which must not show
+  if (solved > 0) cell.median_solved_time_s = median_s;
+  return cell;
 }
 
 TEST(DensityCharts, have_a_line_for_each_interval_and_dash_the_base) {
   db::RunReport run;
-  for (const double ssi_s : {0.0, kInfinity}) {
+  for (const double ssi_s : {0.0, 10.0, 3.0, kInfinity}) {
     for (const std::int64_t robots : {16, 32}) {
-      db::CellSummary cell;
-      cell.parameters.environment = "ware/house";
-      cell.parameters.robots = robots;
-      cell.parameters.options["ssi_s"] = ssi_s;
-      cell.parameters.options["reschedule"] = "none";
-      cell.parameters.options["initial_order"] = "fifo";
-      cell.parameters.planner = "sipplab connectedness:3";
-      cell.success_rate = 0.5;
-      cell.median_planning_time_s = 0.01;
-      run.cells.push_back(cell);
+      run.cells.push_back(measured_cell("ware/house", robots, 0.01, 5));
+      run.cells.back().parameters.options["ssi_s"] = ssi_s;
     }
   }
   const auto charts = density_charts(run, run);
   ASSERT_EQ(charts.size(), 2U);
-  EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-sipplab-connectedness-3");
-  EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3");
+  EXPECT_EQ(charts[0].name, "success-ware-house-none-fifo-sipplab");
+  EXPECT_EQ(charts[1].name, "runtime-ware-house-none-fifo-sipplab");
   run.cells.push_back(run.cells.front());
   run.cells.back().parameters.environment = "ware=house";
-  EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-sipplab-connectedness-3-2");
-  ASSERT_EQ(charts[0].chart.lines.size(), 4U);
-  EXPECT_EQ(charts[0].chart.lines[2].label, "ssi inf");
-  EXPECT_TRUE(charts[0].chart.lines[3].dashed);
-  EXPECT_EQ(charts[1].chart.lines[0].points[0].second, 10) << "milliseconds";
+  EXPECT_EQ(density_charts(run, run)[3].name, "runtime-ware-house-none-fifo-sipplab-2");
+  const auto& lines = charts[0].chart.lines;
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_EQ(lines[2].label, "ssi 3") << "by number, not by letter";
+  EXPECT_EQ(lines[3].label, "ssi 3, base");
+  EXPECT_TRUE(lines[3].dashed);
+  EXPECT_FALSE(lines[2].dashed);
+  EXPECT_EQ(lines[3].colour, lines[2].colour);
+  EXPECT_NE(lines[4].colour, lines[2].colour);
+  EXPECT_EQ(charts[1].chart.lines[0].points[0].y, 10) << "milliseconds";
+  EXPECT_NE(charts[1].chart.y_label.find("[ms]"), std::string::npos);
 }
 
 TEST(TrendText, tells_versions_changes_and_sizes) {
@@ -171,10 +233,10 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
   late.changes.push_back({2, 6, 7, 0.001});
   const Chart chart = trend_chart(*db::find_trend_metric("success"), {series_of(1, 8), late});
   ASSERT_EQ(chart.lines.size(), 2U);
-  EXPECT_EQ(chart.lines[0].points.back().first, 7);
+  EXPECT_EQ(chart.lines[0].points.back().x, 7);
   ASSERT_EQ(chart.lines[1].points.size(), 4U);
-  EXPECT_EQ(chart.lines[1].points.front().first, 4);
-  EXPECT_EQ(chart.lines[1].points.back().first, 7);
+  EXPECT_EQ(chart.lines[1].points.front().x, 4);
+  EXPECT_EQ(chart.lines[1].points.back().x, 7);
   ASSERT_EQ(chart.lines[1].marks.size(), 1U);
   EXPECT_EQ(chart.x_ticks.back().first, 7);
   EXPECT_EQ(chart.x_ticks.back().second, "iiiiiiiiii");
@@ -183,55 +245,138 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
             std::string::npos);
 }
 
-db::CellSummary timed_cell(const std::string& environment, std::int64_t robots, double median_s) {
-  db::CellSummary cell;
-  cell.parameters.environment = environment;
-  cell.parameters.robots = robots;
-  cell.parameters.options["ssi_s"] = 5.0;
-  cell.parameters.options["reschedule"] = "none";
-  cell.parameters.options["initial_order"] = "fifo";
-  cell.parameters.planner = "sipplab";
-  cell.median_planning_time_s = median_s;
-  return cell;
-}
-
-TEST(RuntimeChart, draws_as_many_lines_as_there_are_colours) {
-  db::RunReport run;
+TEST(Plots, draw_as_many_lines_as_there_are_colours) {
+  PlotRequest request;
+  PlottedRun& run = request.runs.emplace_back();
   for (int ssi_s = 0; ssi_s < 9; ++ssi_s) {
-    run.cells.push_back(timed_cell("empty", 8, 0.01));
-    run.cells.back().parameters.options["ssi_s"] = 1.0 * ssi_s;
+    run.report.cells.push_back(measured_cell("empty", 8, 0.01));
+    run.report.cells.back().parameters.options["ssi_s"] = 1.0 * ssi_s;
   }
-  const Chart chart = runtime_chart({run}, {});
+  const Chart chart = runtime_chart(request);
   EXPECT_EQ(chart.lines.size(), kMostChartLines);
   EXPECT_NE(chart.title.find("first 7 of 9"), std::string::npos) << chart.title;
 
-  run.cells.back().parameters.environment = "warehouse";
-  EXPECT_EQ(runtime_chart({run}, {}).lines[0].label, "ssi 0") << "what tells apart those that are drawn";
+  run.report.cells.back().parameters.environment = "warehouse";
+  EXPECT_EQ(runtime_chart(request).lines[0].label, "ssi 0") << "what tells apart those that are drawn";
 }
 
-TEST(RuntimeChart, names_lines_by_what_tells_them_apart) {
-  db::RunReport ours;
+TEST(Plots, name_lines_by_what_tells_them_apart_and_the_runs_in_the_caption) {
+  PlotRequest request;
+  request.runs.resize(2);
+  db::RunReport& ours = request.runs[0].report;
+  db::RunReport& theirs = request.runs[1].report;
   ours.run.uuid = "11111111-rest";
-  ours.cells = {timed_cell("empty", 32, 0.002), timed_cell("empty", 16, 0.001),
-                timed_cell("warehouse", 16, 0.004)};
-  db::RunReport theirs;
+  ours.run.suite = "density";
+  ours.cells = {measured_cell("empty", 32, 0.002), measured_cell("empty", 16, 0.001),
+                measured_cell("warehouse", 16, 0.004)};
   theirs.run.uuid = "22222222-rest";
-  theirs.cells = {timed_cell("empty", 16, 0.5), timed_cell("empty", 16, 0.7)};
+  theirs.cells = {measured_cell("empty", 16, 0.5), measured_cell("empty", 16, 0.7)};
   theirs.cells[0].parameters.planner = theirs.cells[1].parameters.planner = "cmd:other";
 
-  db::CaseFilter empty_maps;
-  empty_maps.environment = "empty";
-  const Chart chart = runtime_chart({ours, theirs}, empty_maps);
+  request.filter.environment = "empty";
+  const Chart chart = runtime_chart(request);
   ASSERT_EQ(chart.lines.size(), 2U);
   EXPECT_EQ(chart.title, "empty, none, fifo, ssi 5") << "what all lines share";
+  EXPECT_EQ(chart.caption.find("run 11111111 (density), run 22222222 ()"), 0U) << chart.caption;
+  EXPECT_NE(chart.caption.find("n = 10 to 20 results a point"), std::string::npos) << chart.caption;
   EXPECT_EQ(chart.lines[0].label, "cmd:other, run 22222222");
   ASSERT_EQ(chart.lines[0].points.size(), 1U) << "cases that differ in nothing shown are one point";
-  EXPECT_DOUBLE_EQ(chart.lines[0].points[0].second, 600);
+  EXPECT_DOUBLE_EQ(chart.lines[0].points[0].y, 600);
   EXPECT_EQ(chart.lines[1].label, "sipplab, run 11111111");
-  EXPECT_EQ(chart.lines[1].points, (std::vector<std::pair<double, double>>{{16, 1}, {32, 2}}));
+  ASSERT_EQ(chart.lines[1].points.size(), 2U);
+  EXPECT_EQ(chart.lines[1].points[0].x, 16);
+  EXPECT_EQ(chart.lines[1].points[1].y, 2);
 
-  EXPECT_EQ(runtime_chart({ours, theirs}, {}).lines.size(), 3U);
-  EXPECT_TRUE(runtime_chart({}, {}).lines.empty());
+  request.filter = {};
+  EXPECT_EQ(runtime_chart(request).lines.size(), 3U);
+  EXPECT_TRUE(runtime_chart({}).lines.empty());
+}
+
+TEST(Plots, failures_are_never_fast) {
+  PlotRequest request;
+  request.runs.resize(1);
+  request.runs[0].report.cells = {measured_cell("empty", 16, 0.002), measured_cell("empty", 32, 0.004, 4),
+                                  measured_cell("empty", 64, 0, 0)};
+  const Chart chart = runtime_chart(request);
+  ASSERT_EQ(chart.lines[0].points.size(), 2U) << "where nothing is solved there is no time";
+  EXPECT_FALSE(chart.lines[0].points[0].hollow);
+  EXPECT_TRUE(chart.lines[0].points[1].hollow);
+  const Chart success = success_chart(request);
+  ASSERT_EQ(success.lines[0].points.size(), 3U);
+  EXPECT_EQ(success.lines[0].points[2].y, 0);
+  EXPECT_NEAR(success.lines[0].points[2].interval->second, 0.2775, 1e-4);  // Wilson, 0 of 10
+}
+
+/// Two re-schedulings of ten instances: the second solves one more, and takes twice as long.
+PlotRequest two_sides() {
+  PlotRequest request;
+  PlottedRun& run = request.runs.emplace_back();
+  run.report.run.uuid = "11111111-rest";
+  for (const std::int64_t side : {1, 2}) {
+    run.report.cells.push_back(measured_cell("empty", 16, 0.01, side == 1 ? 4 : 5));
+    run.report.cells.back().case_id = side;
+    run.report.cells.back().parameters.options["reschedule"] = side == 1 ? "none" : "random";
+    for (int i = 0; i < 10; ++i) {
+      const bool solved = i < 3 + side;
+      run.results.push_back({side, "i" + std::to_string(i), solved,
+                             0.001 * static_cast<double>(side * (i + 1)),
+                             solved ? std::optional(100.0 + i) : std::nullopt,
+                             solved ? std::optional(10.0 + i) : std::nullopt});
+    }
+  }
+  return request;
+}
+
+TEST(Plots, count_what_is_solved_within_a_time) {
+  const Chart chart = cactus_chart(two_sides());
+  ASSERT_EQ(chart.lines.size(), 2U);
+  EXPECT_EQ(chart.lines[0].label, "none: 4 of 10");
+  EXPECT_EQ(chart.lines[1].label, "random: 5 of 10");
+  ASSERT_EQ(chart.lines[1].points.size(), 5U);
+  EXPECT_DOUBLE_EQ(chart.lines[1].points[4].x, 10) << "milliseconds";
+  EXPECT_EQ(chart.lines[1].points[4].y, 5);
+}
+
+TEST(Plots, draw_boxes_of_solved_results) {
+  const Chart chart = box_chart(two_sides(), Measure::kFlowtimes);
+  ASSERT_EQ(chart.lines.size(), 2U);
+  ASSERT_EQ(chart.lines[0].points.size(), 4U);
+  EXPECT_TRUE(chart.lines[0].points[0].hollow) << "fewer than half are solved";
+  EXPECT_FALSE(chart.lines[1].points[0].hollow);
+  EXPECT_LT(chart.lines[0].points[0].x, chart.lines[1].points[0].x) << "side by side";
+  EXPECT_EQ(chart.x_ticks, (std::vector<std::pair<double, std::string>>{{0, "16"}}));
+  EXPECT_NE(picture_of(chart).find("<svg"), std::string::npos) << "fewer than five values make no box";
+}
+
+TEST(Plots, set_two_sides_against_each_other_instance_by_instance) {
+  PlotRequest request = two_sides();
+  const auto chart = scatter_chart(request, Measure::kRuntimes);
+  ASSERT_TRUE(chart);
+  ASSERT_EQ(chart->lines.size(), 1U);
+  ASSERT_EQ(chart->lines[0].points.size(), 5U);
+  EXPECT_DOUBLE_EQ(chart->lines[0].points[0].y, 2 * chart->lines[0].points[0].x);
+  ASSERT_TRUE(chart->unsolved);
+  EXPECT_EQ(chart->lines[0].points[4].x, *chart->unsolved) << "solved by the second alone";
+  EXPECT_NE(chart->caption.find("4 solved by both, 0 by the first alone, 1 by the second alone"),
+            std::string::npos);
+  EXPECT_EQ(chart->x_label, "none [ms]");
+  EXPECT_NE(picture_of(*chart).find("unsolved"), std::string::npos);
+  request.filter.options["reschedule"] = "none";
+  EXPECT_FALSE(scatter_chart(request, Measure::kRuntimes));
+}
+
+TEST(Plots, curves_of_improvement_keep_their_last_value) {
+  PlotRequest request;
+  PlottedRun& run = request.runs.emplace_back();
+  run.report.cells = {measured_cell("empty", 16, 0.01)};
+  run.report.cells[0].case_id = 1;
+  run.steps = {{1, "a", 0.1, 0.4}, {1, "a", 0.2, 0.2}, {1, "b", 0.4, 0.8}, {1, "b", 1.6, 0.4}};
+  const Chart chart = improvement_chart(request);
+  const auto& points = chart.lines[0].points;
+  ASSERT_GT(points.size(), 10U);
+  EXPECT_DOUBLE_EQ(points.front().x, 0.4) << "when both have a plan";
+  EXPECT_DOUBLE_EQ(points.front().y, 50) << "the first ended at 0.2 s";
+  EXPECT_DOUBLE_EQ(points.back().y, 30);
 }
 
 }  // namespace

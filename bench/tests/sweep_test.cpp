@@ -207,6 +207,7 @@ TEST(CaseOutcome, MeansOfPlansAreOverSolvedInstancesAlone) {
   EXPECT_DOUBLE_EQ(outcome.success_rate(), 0.5);
   EXPECT_EQ(outcome.mean_makespan_s(), 10.0);
   EXPECT_DOUBLE_EQ(outcome.mean_planning_s(), 2);
+  EXPECT_EQ(outcome.mean_solved_planning_s(), 1.0);
   EXPECT_DOUBLE_EQ(outcome.mean_tries(), 2);
   EXPECT_EQ(outcome.limited(), 1);
 }

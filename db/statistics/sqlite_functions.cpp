@@ -134,6 +134,14 @@ Outcome mcnemar_of(const std::vector<Arguments>& rows) {
   return {mcnemar(lost, gained), nullptr};
 }
 
+ConfidenceInterval wilson_of(const std::vector<Arguments>& rows) {
+  double held = 0;
+  for (const Arguments& row : rows) held += row[0] != 0 ? 1 : 0;
+  return wilson_interval(held, static_cast<double>(rows.size()));
+}
+Outcome wilson_low_of(const std::vector<Arguments>& rows) { return {wilson_of(rows).low, nullptr}; }
+Outcome wilson_high_of(const std::vector<Arguments>& rows) { return {wilson_of(rows).high, nullptr}; }
+
 Outcome par2_of(const std::vector<Arguments>& rows) {
   std::vector<TimedResult> results;
   results.reserve(rows.size());
@@ -147,10 +155,15 @@ struct Function {
   void (*finish)(sqlite3_context*);
 };
 constexpr Function kFunctions[] = {
-    {"median", 1, finish<median_of>},     {"quantile", 2, finish<quantile_of>},
-    {"geomean", 1, finish<geomean_of>},   {"sign_test", 1, finish<sign_test_of>},
-    {"wilcoxon", 1, finish<wilcoxon_of>}, {"mcnemar", 2, finish<mcnemar_of>},
+    {"median", 1, finish<median_of>},
+    {"quantile", 2, finish<quantile_of>},
+    {"geomean", 1, finish<geomean_of>},
+    {"sign_test", 1, finish<sign_test_of>},
+    {"wilcoxon", 1, finish<wilcoxon_of>},
+    {"mcnemar", 2, finish<mcnemar_of>},
     {"par2", 3, finish<par2_of>},
+    {"wilson_low", 1, finish<wilson_low_of>},
+    {"wilson_high", 1, finish<wilson_high_of>},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 //     sign_test(difference)   wilcoxon(difference)     p values, two-sided
 //     mcnemar(base_solved, head_solved)                p value, two-sided
 //     par2(solved, time_s, limit_s)                    mean time, unsolved as 2 * limit
+//     wilson_low(solved)   wilson_high(solved)         95 % interval of the share that is not 0
 //
 // Rows with a NULL argument are left out. No rows: NULL, but for mcnemar, which is 1
 // as long as there is a pair. A text or blob instead of a number, a p outside

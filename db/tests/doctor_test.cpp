@@ -47,12 +47,12 @@ TEST_F(Doctor, a_sound_history_has_no_finding) {
 TEST_F(Doctor, finds_a_name_that_stands_for_two_commands) {
   record_version(file, {1, 1, 8});
   record_version(file, {2, 1, 8});
-  change("UPDATE case_ SET planner = 'cmd:p'");
+  change("UPDATE case_ SET planner = 'cmd:my planner'");
   change("UPDATE run SET options = options || ' planner=0a memory_limit=1'");
   EXPECT_TRUE(look().sound());
   change("UPDATE run SET options = replace(options, '0a', '0b') WHERE id = 1");
   EXPECT_EQ(finding().check, "planners");
-  EXPECT_EQ(finding().what, "cmd:p stands for 2 commands");
+  EXPECT_EQ(finding().what, "\"cmd:my planner\" stands for 2 commands");
 }
 
 TEST_F(Doctor, leaves_no_file_behind_and_heeds_none) {
@@ -92,6 +92,11 @@ TEST_F(Doctor, summaries_are_compared_with_results_and_made_anew) {
   EXPECT_TRUE(look().sound()) << "sums of another release of SQLite";
   change("UPDATE cell_summary SET mean_flowtime_s = mean_flowtime_s * (1 + 1e-9)");
   EXPECT_TRUE(look({true, false}).sound()) << "the quick look does not read results";
+  EXPECT_EQ(finding().check, "summaries");
+  EXPECT_TRUE(finding(kFix).fixed);
+  EXPECT_TRUE(look().sound());
+
+  change("UPDATE instance_summary SET solved = solved - 1 WHERE instance_id = 2");
   EXPECT_EQ(finding().check, "summaries");
   EXPECT_TRUE(finding(kFix).fixed);
   EXPECT_TRUE(look().sound());

@@ -178,7 +178,7 @@ TEST_F(Queries, reports_as_text) {
   EXPECT_NE(text.find("commit    0123456789abcdef0123456789abcdef01234567 Close the interval (main)"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("64     3/4     0.75     3.00 s       2.00 s      4.00     40.00    1.8        3750\n"),
+  EXPECT_NE(text.find("64     3/4     0.75       5.50 s  153.00 s      4.00     40.00    1.8        3750\n"),
             std::string::npos)
       << text;
 

@@ -1,5 +1,6 @@
 // schema.md names everything that the schema has.
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "db/best_known.hpp"
@@ -68,6 +69,28 @@ class SchemaDocument : public test::DatabaseTest {
     test::must(record_gate_run(database, run));
   }
 
+  /// Two sweeps, whose UUIDs are returned, and one of each other kind.
+  std::vector<std::string> record_runs_of_all_kinds() {
+    std::vector<std::string> runs;
+    for (const bool solved : {true, false}) {
+      auto recorder = test::must(RunRecorder::begin(test::must(Database::open(file)), test::sample_run()));
+      const CaseInfo parameters = test::sample_case(64);
+      ResultRow row = solved ? test::sample_result(0) : test::failed_result();
+      row.retiming = RetimingRow{};
+      row.reported = {{"iterations", 7}};
+      recorder.add(parameters, test::sample_instance(0), row);
+      test::must(recorder.commit_case(parameters));
+      runs.push_back(recorder.run_uuid());
+    }
+    record_a_property_run();
+    import_a_report();
+    record_a_gate_run();
+    record_fuzzing();
+    Database best = test::must(Database::open(file));
+    test::must(record_best_known(best, {{"a_map", "random", 1, 10, 20, 30}}));
+    return runs;
+  }
+
   void import_a_report() {
     MeasurementRun run;
     run.uuid = "00000000-0000-8000-8000-000000000001";
@@ -117,30 +140,15 @@ TEST_F(SchemaDocument, names_every_table_view_and_column) {
   for (const auto& row : columns.rows) {
     const auto& table = std::get<std::string>(row[0]);
     const auto& column = std::get<std::string>(row[1]);
-    const std::string description = section(text, "### `" + table + "`");
+    std::string description = section(text, "### `" + table + "`");
     EXPECT_FALSE(description.empty()) << "no section for " << table;
+    if (table.rfind("v_all_", 0) == 0) description += section(text, "### `v_" + table.substr(6) + "`");
     EXPECT_NE(description.find("`" + column + "`"), std::string::npos) << table << '.' << column;
   }
 }
 
 TEST_F(SchemaDocument, has_examples_that_answer) {
-  std::vector<std::string> runs;
-  for (const bool solved : {true, false}) {
-    auto recorder = test::must(RunRecorder::begin(test::must(Database::open(file)), test::sample_run()));
-    const CaseInfo parameters = test::sample_case(64);
-    ResultRow row = solved ? test::sample_result(0) : test::failed_result();
-    row.retiming = RetimingRow{};
-    row.reported = {{"iterations", 7}};
-    recorder.add(parameters, test::sample_instance(0), row);
-    test::must(recorder.commit_case(parameters));
-    runs.push_back(recorder.run_uuid());
-  }
-  record_a_property_run();
-  import_a_report();
-  record_a_gate_run();
-  record_fuzzing();
-  Database best = test::must(Database::open(file));
-  test::must(record_best_known(best, {{"a_map", "random", 1, 10, 20, 30}}));
+  std::vector<std::string> runs = record_runs_of_all_kinds();
   const auto expect_answer = [&](std::string sql) {
     replace_all(sql, ":run", "'" + runs[0] + "'");
     replace_all(sql, ":other", "'" + runs[1] + "'");
@@ -157,6 +165,41 @@ TEST_F(SchemaDocument, has_examples_that_answer) {
     expect_answer(sql);
   }
   expect_answer(example(section(document(), "## Functions")));
+}
+
+// Those that list runs, with the reason; those that are of no run; definitions of caches.
+const std::set<std::string> kWithExcludedRuns = {
+    "v_runs",        "v_property_runs",    "v_gate_runs",           "v_fuzz_runs",      "v_all_run_cells",
+    "v_all_results", "v_commits",          "v_all_measurements",    "v_all_gate_cells", "v_cases",
+    "v_findings",    "v_recomputed_cells", "v_recomputed_instances"};
+
+TEST_F(SchemaDocument, says_which_views_have_excluded_runs_and_no_other_has) {
+  record_runs_of_all_kinds();
+  const auto rows_of = [this](const std::string& view) {
+    return std::stoi(test::ask(file, "SELECT count(*) FROM " + view));
+  };
+  const Table views = test::must(run_sql(file, "SELECT name FROM sqlite_schema WHERE type = 'view'"));
+  for (const auto& row : views.rows) EXPECT_GT(rows_of(std::get<std::string>(row[0])), 0);
+  {
+    auto database = test::must(Database::open(file));
+    const Table runs = test::must(run_sql(file, "SELECT run FROM v_runs"));
+    ASSERT_GE(runs.rows.size(), 6U);
+    for (const auto& row : runs.rows) {
+      test::must(exclude_run(database, std::get<std::string>(row[0]), "the machine was busy"));
+    }
+  }
+  for (const auto& row : views.rows) {
+    const auto& view = std::get<std::string>(row[0]);
+    EXPECT_EQ(rows_of(view) > 0, kWithExcludedRuns.contains(view)) << view;
+    const bool tells = test::ask(file, "SELECT count(*) FROM pragma_table_info('" + view +
+                                           "') WHERE name = 'excluded_reason'") == "1";
+    if (tells) {
+      EXPECT_EQ(rows_of(view + " WHERE excluded_reason IS NULL"), 0) << view;
+    }
+  }
+  EXPECT_EQ(test::ask(file, "SELECT sum(runs + property_runs) FROM v_commits"), "0");
+  EXPECT_EQ(test::ask(file, "SELECT sum(results) + sum(solved) FROM v_recomputed_instances"), "0");
+  EXPECT_EQ(test::ask(file, "SELECT sum(results) + sum(solved) FROM instance_summary"), "0");
 }
 
 TEST_F(SchemaDocument, is_the_catalogue_of_all_views) {

@@ -133,6 +133,9 @@ TEST_F(SqlStatistics, are_the_same_functions) {
   EXPECT_EQ(ask("SELECT mcnemar(column1, column2) FROM (VALUES (1, 0), (1, 0), (1, 1), (0, 0), (NULL, 1))"),
             Value{0.5});
   EXPECT_EQ(ask("SELECT par2(column1, column2, 10) FROM (VALUES (1, 2.0), (0, 3.0))"), Value{11.0});
+  EXPECT_EQ(ask("SELECT round(wilson_low(column1), 4) || ' ' || round(wilson_high(column1), 4) FROM (VALUES "
+                "(1), (1), (0), (1))"),
+            Value{std::string("0.3006 0.9544")});
   EXPECT_EQ(
       ask("SELECT group_concat(m) FROM (SELECT median(column2) AS m FROM (VALUES (1, 1), (1, 3), (2, 5)) "
           "GROUP BY column1)"),

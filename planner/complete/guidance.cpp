@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <utility>
 
 namespace sipplab {
 namespace {
@@ -141,7 +142,7 @@ GuidedDistances::GuidedDistances(const FreeGrid& grid, const CellIds& goals, con
   }
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
     searches_[robot].codes.assign(grid.size(), kUnknown);
-    searches_[robot].queued = {{0, goals[robot]}};
+    searches_[robot].queued[0] = {goals[robot]};
   }
 }
 
@@ -154,13 +155,19 @@ int GuidedDistances::gain(RobotId robot, CellId from, CellId to) {
 
 int GuidedDistances::code(Search& search, CellId wanted) {
   while (search.codes[wanted] == kUnknown) {
-    const auto [cost, cell] = pop(search.queued);
+    std::vector<CellId>& bucket = search.queued[search.cost % search.queued.size()];
+    if (bucket.empty()) {
+      ++search.cost;
+      continue;
+    }
+    const CellId cell = bucket.back();
+    bucket.pop_back();
     if (search.codes[cell] != kUnknown) continue;
-    search.codes[cell] = static_cast<std::uint8_t>(1 + cost % kModulus);
+    search.codes[cell] = static_cast<std::uint8_t>(1 + search.cost % kModulus);
     const auto neighbours = grid_.neighbours(cell);
     for (std::size_t i = 0; i < neighbours.size(); ++i) {
-      if (search.codes[neighbours[i]] == kUnknown)
-        push(search.queued, {cost + costs_to_[cell][i], neighbours[i]});
+      if (search.codes[neighbours[i]] != kUnknown) continue;
+      search.queued[(search.cost + costs_to_[cell][i]) % search.queued.size()].push_back(neighbours[i]);
     }
   }
   return search.codes[wanted];

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "planner/complete/goal_distances.hpp"
@@ -32,7 +31,8 @@ inline constexpr std::uint32_t kDearestMoveCost = 40;
 MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals);
 
 /// Costs of the cheapest paths to each robot's goal, found as far as they are asked for: Dijkstra from the
-/// goal. Neighbours differ by kDearestMoveCost at most, so that costs are kept in a byte a cell.
+/// goal, with buckets (Dial 1969). Neighbours differ by kDearestMoveCost at most, so that costs are kept in a
+/// byte a cell.
 class GuidedDistances {
  public:
   /// Both must outlive this. O(robots x cells) bytes.
@@ -49,8 +49,10 @@ class GuidedDistances {
   static_assert(2 * kDearestMoveCost < kModulus);
 
   struct Search {
-    std::vector<std::uint8_t> codes;                       ///< by cell: kUnknown, or 1 + cost % kModulus
-    std::vector<std::pair<std::uint32_t, CellId>> queued;  ///< heap, least cost first
+    std::vector<std::uint8_t> codes;  ///< by cell: kUnknown, or 1 + cost % kModulus
+    std::uint32_t cost = 0;           ///< of the cells that are looked at
+    /// Cells to look at, by their cost modulo the size: none costs more than a move beyond `cost`.
+    std::array<std::vector<CellId>, kDearestMoveCost + 1> queued;
   };
 
   int code(Search& search, CellId cell);

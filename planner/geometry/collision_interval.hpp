@@ -51,13 +51,6 @@ bool reaches(const Displacement& way, Vec2 place, double reach);
 /// `pardoned`. A `way` of no length is a point.
 bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);
 
-/// Whether the infinite line along `way` stays out of reach of `place`. If so,
-/// unsafe_departures is empty for a disk that rests there (3).
-inline bool passes_by(const Displacement& way, Vec2 place, double reach) {
-  const double aside = cross(way.direction, place - way.from);
-  return reach * reach - aside * aside <= 2 * reach * kTouchDepthCells;
-}
-
 /// Cells. How far beyond their reach two disks may stay from each other at a departure
 /// that still counts as unsafe: an end of its interval may have moved outwards by the time
 /// of one kContactSlackCells, each of the two bodies moves that far in this time, and the

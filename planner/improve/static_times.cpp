@@ -134,10 +134,11 @@ class LinesOfSight {
 }  // namespace
 
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells, unsigned threads) {
+                                   const std::vector<double>& solo_cells, unsigned threads,
+                                   std::size_t most_work_of_all) {
   const std::size_t robots = instance.agents.size();
   const std::size_t most_work =
-      std::min(kMostStaticWork, kMostStaticWorkOfAll / std::max<std::size_t>(robots, 1));
+      std::min(kMostStaticWork, most_work_of_all / std::max<std::size_t>(robots, 1));
   std::vector<LinesOfSight> lines_of_sight;
   for (unsigned i = 0; i < std::max(threads, 1U); ++i) lines_of_sight.emplace_back(instance.map);
   std::vector<double> times_s(robots);
@@ -162,6 +163,34 @@ LowerBound lower_bound(const std::vector<double>& static_times_s) {
     bound.makespan_s = std::max(bound.makespan_s, time_s);
   }
   return bound;
+}
+
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness) {
+  const std::size_t robots = std::max<std::size_t>(instance.agents.size(), 1);
+  if (instance.map.cell_count() > kMostRecordedWork / robots) {
+    std::vector<double> times_s;
+    for (const Agent& agent : instance.agents) {
+      times_s.push_back((any_angle ? distance(agent.start, agent.goal)
+                                   : neighbourhood_distance(agent.start, agent.goal, connectedness)) /
+                        agent.speed_cells_per_s);
+    }
+    return lower_bound(times_s);
+  }
+  LinesOfSight lines_of_sight(instance.map);
+  std::vector<double> solo_cells;
+  for (const Agent& agent : instance.agents) {
+    const double straight = distance(agent.start, agent.goal);
+    const LineOfSight& sight = lines_of_sight.of(agent.radius_cells);
+    double cells = straight;
+    if (any_angle && !sight.is_clear(agent.start, agent.goal)) {
+      cells = shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
+    }
+    // Large bodies may have a path and no steps: a straight line is a bound for them, too.
+    solo_cells.push_back(cells == kForever ? straight : cells);
+  }
+  std::vector<double> times_s =
+      static_times_s(instance, any_angle, connectedness, solo_cells, 1, kMostRecordedWork);
+  return lower_bound(times_s);
 }
 
 }  // namespace sipplab

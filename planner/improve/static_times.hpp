@@ -14,6 +14,9 @@ inline constexpr std::size_t kMostStaticWork = 1'000'000;
 /// ... and for all robots together; about two seconds. Up to 200 robots have the former.
 inline constexpr std::size_t kMostStaticWorkOfAll = 200'000'000;
 
+/// ... where a bound is only recorded, beside plannings that are shorter than that: about 0.2 s.
+inline constexpr std::size_t kMostRecordedWork = 20'000'000;
+
 /// Length, in cells, of the shortest path of straight moves between cell centres that a disk
 /// can make on the map; kForever if there is none.
 ///
@@ -29,8 +32,13 @@ double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight,
 /// Lower bounds on the arrival of each robot alone on the map, in seconds. `solo_cells` are the
 /// lengths of paths that exist, by robot. The same on any number of threads.
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells, unsigned threads = 1);
+                                   const std::vector<double>& solo_cells, unsigned threads = 1,
+                                   std::size_t most_work_of_all = kMostStaticWorkOfAll);
 
 LowerBound lower_bound(const std::vector<double>& static_times_s);
+
+/// That of an instance of which there is no plan, by the moves that are allowed. Within kMostRecordedWork;
+/// where the robots and the map are too large for it, obstacles do not count.
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness);
 
 }  // namespace sipplab

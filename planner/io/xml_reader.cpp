@@ -217,12 +217,4 @@ std::string XmlReader::words(pugi::xml_node node, const char* attribute) {
   return std::string(text);
 }
 
-bool XmlReader::boolean_text(pugi::xml_node node) {
-  const std::string text = text_of(node);
-  const std::string_view word = trimmed(text);
-  if (word == "true" || word == "1") return true;
-  if (word != "false" && word != "0") fail(node, tag(node) + " " + in_quotes(word), "true or false");
-  return false;
-}
-
 }  // namespace sipplab

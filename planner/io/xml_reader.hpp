@@ -76,8 +76,6 @@ class XmlReader {
   /// An attribute that is words, kept as they are; empty if there is none. What is no UTF-8 is
   /// an error: JSON could not write it.
   std::string words(pugi::xml_node node, const char* attribute);
-  /// "true", "1", "false" or "0".
-  bool boolean_text(pugi::xml_node node);
 
  private:
   void report(pugi::xml_node node, std::string what, const std::vector<std::string_view>& names,

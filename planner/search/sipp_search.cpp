@@ -74,8 +74,9 @@ Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, Reservati
                                                      const SearchLimits& limits,
                                                      SearchStatistics& statistics) {
   statistics_ = &statistics;
-  // No virtual call in the loop.
-  begin(instance_.agents[agent], static_cast<ReservationTable&>(reservations));
+  auto* const table = dynamic_cast<ReservationTable*>(&reservations);  // no virtual calls in the loop
+  PLANNER_ASSERT(table != nullptr);
+  begin(instance_.agents[agent], *table);
   const CellNodes goals = nodes_of(agent_->goal);
   const CellNodes starts = nodes_of(agent_->start);
   if (goals.first == goals.last || starts.first == starts.last) return Unexpected{PlanFailure::kNoPath};

@@ -36,7 +36,7 @@ struct SippOptions {
 template <class Motion>
 class Sipp final : public SingleAgentPlanner {
  public:
-  /// The instance must outlive the search, whose reservations are those of a ReservationTable. REQUIRES:
+  /// The instance must outlive the search. plan() REQUIRES a ReservationTable. REQUIRES:
   /// !find_error(instance).
   Sipp(const Instance& instance, SippOptions options);
 

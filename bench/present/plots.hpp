@@ -1,0 +1,69 @@
+// The pictures of a paper, from any runs: lines are what the cases of the runs differ in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/present/chart.hpp"
+#include "db/queries.hpp"
+#include "db/trends.hpp"
+
+namespace sipplab::bench {
+
+struct PlottedResult {
+  std::int64_t case_id = 0;
+  std::string instance;  ///< content, place and repetition: the same planning in another run has the same
+  bool solved = false;
+  double time_s = 0;  ///< wall clock of planning
+  std::optional<double> flowtime_s;
+  std::optional<double> makespan_s;
+};
+
+/// How a plan was improved: from elapsed_s on the gap is this.
+struct PlottedStep {
+  std::int64_t case_id = 0;
+  std::string instance;
+  double elapsed_s = 0;
+  double flowtime_gap = 0;  ///< 0..1
+};
+
+struct PlottedRun {
+  db::RunReport report;
+  std::vector<PlottedResult> results;  ///< only where the picture needs them
+  std::vector<PlottedStep> steps;      ///< by instance and time
+};
+
+struct PlotRequest {
+  std::vector<PlottedRun> runs;
+  db::CaseFilter filter;              ///< its id and map select nothing here
+  std::vector<db::CaseFilter> sides;  ///< of a scatter plot, none or two: cases of the runs beside the filter
+  std::vector<std::string> side_names;
+  bool second_is_base =
+      false;  ///< the second run is the base of the first: dashed, in the first one's colours
+};
+
+/// Reads a run, with its results or steps if they are asked for.
+db::Result<PlottedRun> read_plotted_run(const std::filesystem::path& database, const std::string& run,
+                                        bool with_results, bool with_steps);
+
+/// Share solved over the number of robots, with 95 % intervals (Wilson).
+Chart success_chart(const PlotRequest& request);
+/// Median planning time of solved results over the number of robots; hollow where fewer than half are solved.
+Chart runtime_chart(const PlotRequest& request);
+/// How many results are solved within a time.
+Chart cactus_chart(const PlotRequest& request);
+
+enum class Measure { kRuntimes, kFlowtimes, kMakespans };
+/// Box plots of solved results over the number of robots; hollow where fewer than half are solved.
+Chart box_chart(const PlotRequest& request, Measure metric);
+/// Mean gap over time, from when all results have a plan; a curve that has ended keeps its last value.
+Chart improvement_chart(const PlotRequest& request);
+
+/// One point for each planning that both sides did: those of the request, else two runs, else two planners,
+/// re-schedulings, orders or start-safe intervals. Error: one line, if there are no two sides.
+Expected<Chart, std::string> scatter_chart(const PlotRequest& request, Measure metric);
+
+}  // namespace sipplab::bench

@@ -1,2 +1,0 @@
--- Stands in for schema 14 until it comes.
-SELECT 14;
