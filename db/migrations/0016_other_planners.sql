@@ -72,7 +72,8 @@ JOIN result ON result.cell_id = retiming.cell_id AND result.instance_id = retimi
 JOIN cell ON cell.id = result.cell_id
 JOIN run ON run.id = cell.run_id
 JOIN case_ ON case_.id = cell.case_id
-JOIN instance ON instance.id = result.instance_id;
+JOIN instance ON instance.id = result.instance_id
+WHERE run.excluded_reason IS NULL;
 
 CREATE VIEW v_reported AS
 SELECT
@@ -89,7 +90,8 @@ FROM reported
 JOIN cell ON cell.id = reported.cell_id
 JOIN run ON run.id = cell.run_id
 JOIN case_ ON case_.id = cell.case_id
-JOIN instance ON instance.id = reported.instance_id;
+JOIN instance ON instance.id = reported.instance_id
+WHERE run.excluded_reason IS NULL;
 
 -- Our unit-step costs beside them: of plans of unit moves alone, never of any-angle ones.
 CREATE VIEW v_best_known AS
