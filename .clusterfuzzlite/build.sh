@@ -20,7 +20,7 @@ for folder in "$root"/fuzz/corpus/*; do
   name=$(basename "$folder")
   [ -x "$build/fuzz/$name" ] || continue
   cp "$build/fuzz/$name" "$OUT/"
-  ldd "$build/fuzz/$name" | sed -n 's/.*=> \(.*lib\(pugixml\|fmt\|xxhash\)[^ ]*\).*/\1/p' | xargs -I{} cp -L {} "$OUT/lib/"
+  ldd "$build/fuzz/$name" | sed -n 's/.*=> \(.*lib\(pugixml\|fmt\|xxhash\|yaml-cpp\)[^ ]*\).*/\1/p' | xargs -I{} cp -L {} "$OUT/lib/"
 
   seeds=$build/seeds/$name
   rm -rf "$seeds" && mkdir -p "$seeds"

@@ -263,6 +263,10 @@ class Merge {
         "UPDATE main.finding SET minimal = s.minimal, robots = s.robots, cells = s.cells "
         "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
         "AND length(s.minimal) < length(finding.minimal)",
+        "UPDATE main.best_known SET lower_cost = max(best_known.lower_cost, s.lower_cost), "
+        "solution_cost = min(best_known.solution_cost, s.solution_cost) FROM shard.best_known AS s "
+        "WHERE s.map_name = best_known.map_name AND s.scen_type = best_known.scen_type "
+        "AND s.type_id = best_known.type_id AND s.agents = best_known.agents",
         // Not the sum of both: merging a file twice is to change nothing.
         "UPDATE main.finding SET times_found = s.times_found "
         "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "

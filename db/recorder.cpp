@@ -287,8 +287,35 @@ Result<Done> RunRecorder::write_results(std::int64_t cell_id, const std::vector<
                           null_if_empty(row.limit), null_if_empty(row.message), null_if_empty(row.made_by),
                           row.ssi_kept_s, row.instructions, row.cpu_time_ns, attempt_id_)
                     .run());
+    if (row.retiming) SIPPLAB_TRY(write_retiming(cell_id, instance_key, row));
+    if (!row.reported.empty()) SIPPLAB_TRY(write_reported(cell_id, instance_key, row));
     if (row.progress.empty()) continue;
     SIPPLAB_TRY(write_progress(cell_id, instance_key, row));
+  }
+  return Done{};
+}
+
+Result<Done> RunRecorder::write_retiming(std::int64_t cell_id, std::int64_t instance_id,
+                                         const ResultRow& row) {
+  const RetimingRow& retiming = *row.retiming;
+  return sqlite::run(
+      database_.connection(),
+      "INSERT INTO retiming (cell_id, instance_id, position, repetition, executable, given_valid, "
+      "given_violations, given_makespan_s, given_flowtime_s, retime_ns, unit_step_cost) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      "writing a plan as it was given", cell_id, instance_id, row.position, row.repetition,
+      retiming.executable, retiming.given_valid, retiming.given_violations, retiming.given_makespan_s,
+      retiming.given_flowtime_s, retiming.retime_ns, retiming.unit_step_cost);
+}
+
+Result<Done> RunRecorder::write_reported(std::int64_t cell_id, std::int64_t instance_id,
+                                         const ResultRow& row) {
+  for (const auto& [name, value] : row.reported) {
+    SIPPLAB_TRY(sqlite::run(database_.connection(),
+                            "INSERT INTO reported (cell_id, instance_id, position, repetition, name, value) "
+                            "VALUES (?, ?, ?, ?, ?, ?)",
+                            "writing what a program says of its run", cell_id, instance_id, row.position,
+                            row.repetition, name, value));
   }
   return Done{};
 }

@@ -99,6 +99,8 @@ class RunRecorder {
                                              const RunInfo& info);
   Result<Done> write_case(const CaseInfo& parameters, const std::vector<BufferedResult>& results);
   Result<Done> write_results(std::int64_t cell_id, const std::vector<BufferedResult>& results);
+  Result<Done> write_retiming(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
+  Result<Done> write_reported(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
   Result<Done> write_bounds(std::int64_t case_id, const std::vector<BufferedResult>& results);
   Result<Done> write_progress(std::int64_t cell_id, std::int64_t instance_id, const ResultRow& row);
   Result<Done> write_attempt(RunStatus status, const AttemptUsage& usage);

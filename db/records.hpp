@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "db/table.hpp"
@@ -169,6 +170,18 @@ struct ProgressRow {
   double makespan_bound_s = 0;
 };
 
+/// A plan as it was given, where the result is of the same ways and orders with other times.
+struct RetimingRow {
+  bool executable = true;  ///< false: no times exist for these ways and orders
+  bool given_valid = false;
+  std::int64_t given_violations = 0;
+  double given_makespan_s = 0;  ///< by the given plan's own clock
+  double given_flowtime_s = 0;
+  std::int64_t retime_ns = 0;  ///< wall clock of re-timing alone
+  std::optional<std::int64_t>
+      unit_step_cost;  ///< of plans of unit moves: the sum of steps, all robots at once
+};
+
 /// What one planning of one instance gave.
 struct ResultRow {
   /// Place of the instance in its set, counted from 0. A set may hold one instance
@@ -200,6 +213,9 @@ struct ResultRow {
   std::optional<double> flowtime_bound_s;
   std::optional<double> makespan_bound_s;
   std::vector<ProgressRow> progress = {};  ///< of improvement, in order of time; else empty
+  std::optional<RetimingRow> retiming = {};  ///< where the plan was re-timed
+  /// What another program says of its run, by its own names: nobody checked that.
+  std::vector<std::pair<std::string, double>> reported = {};
 };
 
 enum class RunStatus {

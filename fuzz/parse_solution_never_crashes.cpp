@@ -1,4 +1,4 @@
-// Claim: no bytes, taken as a solution in XML, JSON, CSV or plain lines, make the reader crash or take
+// Claim: no bytes, taken as a solution in any format that is read, make the reader crash or take
 // memory that they are not due; a refusal is one line, and a solution that is accepted reads
 // back equal from each format. What is accepted, the validator judges without a crash.
 #include <string>
@@ -7,6 +7,7 @@
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
 #include "sipplab/solution_io.hpp"
+#include "planner/retime/retime.hpp"
 #include "sipplab/validator.hpp"
 
 namespace {
@@ -70,6 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!document) return 0;
   check_read_back(*document);
   static_cast<void>(plan_hash(document->solution));
-  if (!document->solution.trajectories.empty()) validate(instance, document->solution);
+  if (document->solution.trajectories.empty()) return 0;
+  validate(instance, document->solution);
+  static_cast<void>(retime(instance, document->solution));
   return 0;
 }

@@ -43,6 +43,8 @@ std::optional<bench::CommandPlannerSpec> command_of(const BenchArguments& argume
   auto spec = bench::parse_command_planner(*arguments.planner, arguments.planner_name);
   if (!spec) return std::nullopt;  // checked when the command line was read
   spec->memory_limit_mib = arguments.memory_limit_mib;
+  spec->retime = arguments.retime;
+  if (arguments.solution_format) spec->format = *arguments.solution_format;
   if (arguments.rounding) spec->rounding = parse_real(*arguments.rounding).value_or(bench::kDefaultRounding);
   return *spec;
 }
@@ -112,6 +114,7 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
         fmt::format(" planner={} memory_limit={} rounding={}", bench::text_digest(command->command),
                     command->memory_limit_mib, command->rounding);
   }
+  if (arguments.retime) info.options += " retime";
   info.seed = arguments.seed;
   info.planned = static_cast<std::int64_t>(bench::planning_count(sweep, arguments.repetitions));
   static_cast<db::RunOrigin&>(info) = bench::run_origin();
@@ -199,7 +202,7 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   const bool nothing_left = count_left(cases) == 0;
   const std::optional<std::string> run = earlier ? std::optional(earlier->uuid) : std::nullopt;
   bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, run),
-                     arguments.repetitions, stderr_is_terminal(), std::move(command));
+                     arguments.repetitions, stderr_is_terminal(), std::move(command), arguments.retime);
   sweep.register_benchmarks(flags.format == "csv");
   if (nothing_left) {
     if (earlier->status != db::RunStatus::kFinished) sweep.begin();  // killed after its last planning
@@ -209,6 +212,7 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
         flags.format.empty() ? nullptr : benchmark::CreateDefaultDisplayReporter();
     bench::RecordingReporter reporter(sweep, shown);
     benchmark::RunSpecifiedBenchmarks(&reporter, std::string("."));
+    benchmark::ClearRegisteredBenchmarks();  // they refer to this sweep, and another may follow
   }
   sweep.end();
   return report(arguments, flags, sweep, info.suite, path.string(),
@@ -294,14 +298,16 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
   command.add_option("--count", arguments.count, "instances per case")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
-  CLI::Option* planner = command
-                             .add_option("--planner", arguments.planner,
-                                         "another program plans: 'cmd:PROGRAM {task} {map} {config} {out}'")
-                             ->check([](const std::string& text) {
-                               const auto spec = bench::parse_command_planner(text, "");
-                               return spec ? std::string() : spec.error();
-                             })
-                             ->type_name("CMD");
+  CLI::Option* planner =
+      command
+          .add_option("--planner", arguments.planner,
+                      "another program plans: NAME:PATH, as `sipplab planners` lists them, or "
+                      "'cmd:PROGRAM {task} {map} {config} {out}'")
+          ->check([](const std::string& text) {
+            const auto spec = bench::parse_command_planner(text, "");
+            return spec ? std::string() : spec.error();
+          })
+          ->type_name("CMD");
   command
       .add_option("--planner-name", arguments.planner_name,
                   "its name in the history instead of its program's")
@@ -323,6 +329,9 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->check(check_positive_real)
       ->check(real_between(0, bench::kMaxRounding))
       ->type_name("X");
+  add_solution_format(command, arguments.solution_format)->needs(planner);
+  command.add_flag("--retime", arguments.retime,
+                   "judge plans with the earliest times for their ways and orders; keeps both");
   command.add_option("--seed", arguments.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();

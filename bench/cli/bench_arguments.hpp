@@ -38,6 +38,8 @@ struct BenchArguments {
   std::string planner_name;
   std::uint64_t memory_limit_mib = bench::kDefaultMemoryLimitMib;
   std::optional<std::string> rounding;
+  std::optional<std::string> solution_format;
+  bool retime = false;
   std::optional<std::string> shard;
   std::string sweep;                ///< id of the run, or a word that tells repetitions of a sweep apart
   std::optional<std::string> task;  ///< folder of the plan by which a shard is dealt out

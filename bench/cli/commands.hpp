@@ -23,6 +23,8 @@ struct Invocation {
 
 Command add_plan_command(CLI::App& program);
 Command add_validate_command(CLI::App& program);
+Command add_retime_command(CLI::App& program);
+Command add_planners_command(CLI::App& program);
 Command add_generate_command(CLI::App& program);
 Command add_bench_command(CLI::App& program, const Invocation& invocation);
 Command add_reproduce_command(CLI::App& program, const Invocation& invocation);

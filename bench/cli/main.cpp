@@ -11,6 +11,7 @@ namespace {
 std::vector<Command> add_laboratory_commands(CLI::App& program, const Invocation& invocation) {
   return {
       add_bench_command(program, invocation),
+      add_planners_command(program),
       add_runs_command(program),
       add_show_command(program),
       add_sql_command(program),

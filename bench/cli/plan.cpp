@@ -15,7 +15,11 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/planner_flags.hpp"
 #include "bench/interrupt.hpp"
+#include "planner/core/clock.hpp"
 #include "planner/io/text_file.hpp"
+#include "planner/io/tracker.hpp"
+#include "planner/retime/retime.hpp"
+#include "planner/retime/steps.hpp"
 #include "sipplab/instance_io.hpp"
 #include "sipplab/solution_io.hpp"
 #include "sipplab/solve.hpp"
@@ -28,6 +32,9 @@ struct PlanArguments {
   InstanceFlags instance;
   OptionFlags options;
   std::optional<std::string> format;
+  std::optional<std::string> solution;  ///< to begin with
+  std::optional<std::string> solution_format;
+  bool retime = false;
   std::optional<std::string> output;
   PictureFlags picture;
   bool json = false;
@@ -159,6 +166,57 @@ std::optional<std::string> draw(const PlanArguments& arguments, const Instance& 
   return error->message();
 }
 
+/// The plan in a file, with the earliest times for its ways where it was asked for or needed.
+Expected<SolveResult, std::string> given_plan(const PlanArguments& arguments, const Instance& instance,
+                                              const PlannerOptions& options) {
+  const Input<SolutionDocument> document =
+      load_solution(*arguments.solution, instance, arguments.solution_format.value_or(""));
+  if (!document) return Unexpected{document.error().message()};
+  if (document->status != "solved") {
+    return Unexpected{*arguments.solution + ": no solution in it (status " + document->status +
+                      "), expected a solved instance"};
+  }
+  const Clock::time_point begin = Clock::now();
+  SolveResult outcome;
+  outcome.plan.status = PlanStatus::kSolved;
+  outcome.plan.solution = document->solution;
+  Try given;
+  for (AgentIndex i = 0; i < instance.agents.size(); ++i) given.order.push_back(i);
+  outcome.plan.trace.push_back(std::move(given));
+  const ValidationOptions wanted{0, {}, options.rules};
+  if (arguments.retime || !validate(instance, outcome.plan.solution, wanted).valid()) {
+    auto retimed = retime(instance, document->solution, options.rules);
+    if (!retimed) return Unexpected{*arguments.solution + ": " + retimed.error()};
+    if (!retimed->is_executable()) {
+      return Unexpected{*arguments.solution + ": not executable, " + ring_text(instance, retimed->ring)};
+    }
+    outcome.plan.solution = std::move(retimed->solution);
+    const ValidationReport report = validate(instance, outcome.plan.solution, wanted);
+    if (!report.valid()) {
+      return Unexpected{*arguments.solution +
+                        ": invalid also with other times: " + report.violations.front().message};
+    }
+  }
+  outcome.plan.planning_seconds = seconds_since(begin);
+  if (options.improve) {
+    PlannerOptions improving = options;
+    improving.ssi_s = 0;  // it promises nothing of starts
+    outcome.improvement = improve(instance, outcome.plan.solution, outcome.plan.order(), improving);
+  }
+  return outcome;
+}
+
+/// The plan of the document as MAPF-tracker has it.
+Expected<std::string, std::string> tracker_text(const PlanArguments& arguments, const Instance& instance,
+                                                const SolutionDocument& document) {
+  const auto steps = discrete_steps(instance, document.solution);
+  if (!steps) {
+    return Unexpected{std::string(
+        "sipplab: the plan has other moves than along rows and columns, expected --method complete")};
+  }
+  return tracker_csv(instance, tracker_scenario(arguments.instance.robots_file()), *steps);
+}
+
 /// A plan that breaks a promise is an error of ours: it is drawn where a picture was
 /// asked for, and written nowhere.
 int report_invalid(const PlanArguments& arguments, const Instance& instance, const SolveResult& outcome,
@@ -186,15 +244,24 @@ int run_plan(const PlanArguments& arguments) {
     options.stop = &bench::interrupt_flag();
   }
   if (options.best && !stated.states("time-limit")) options.time_limit_s = kBestTimeLimitS;
-  const SolveResult outcome = solve(instance, options);
+  const SolveResult outcome = arguments.solution
+                                  ? SIPPLAB_TRY_OR(fail, given_plan(arguments, instance, options))
+                                  : solve(instance, options);
   if (outcome.is_solved()) {
     const ValidationReport report = validate(instance, outcome.solution(), outcome.promises(options.rules));
     if (!report.valid()) return report_invalid(arguments, instance, outcome, report, options);
   }
 
-  const SolutionDocument document = document_of(outcome, options);
+  SolutionDocument document = document_of(outcome, options);
+  if (arguments.solution) document.made_by.clear();
+  std::string written;
+  if (arguments.format == "tracker") {
+    if (outcome.is_solved()) written = SIPPLAB_TRY_OR(fail, tracker_text(arguments, instance, document));
+  } else if (arguments.output || (arguments.format && !arguments.json)) {
+    written = write_solution(output_format(arguments), instance, document);
+  }
   if (arguments.output) {
-    const std::string text = write_solution(output_format(arguments), instance, document);
+    const std::string& text = written;
     if (const auto error = write_file(*arguments.output, text)) return fail(error->message());
   }
   const std::string subtitle =
@@ -207,7 +274,7 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.json) {
     print(solution_to_json(instance, document));
   } else if (arguments.format && !arguments.output) {
-    print(write_solution(output_format(arguments), instance, document));
+    print(written);
   } else {
     print(summary(document, outcome, instance));
   }
@@ -222,11 +289,18 @@ Command add_plan_command(CLI::App& program) {
   arguments->instance.add_to(*command);
   arguments->options.add_to(*command, {OptionGroup::kPlanner, OptionGroup::kMotion, OptionGroup::kLimits,
                                        OptionGroup::kImprovement});
+  command->option_defaults()->group("Begin with another plan");
+  CLI::Option* solution =
+      command->add_option("--solution", arguments->solution, "plan of another program, for --improve")
+          ->type_name("FILE");
+  add_solution_format(*command, arguments->solution_format)->needs(solution);
+  command->add_flag("--retime", arguments->retime, "give it the earliest times though it is valid")
+      ->needs(solution);
   command->option_defaults()->group("Output");
   command
       ->add_option("--format", arguments->format,
                    "format of the solution; default: by the suffix of -o, else xml")
-      ->check(CLI::IsMember({"xml", "json", "csv"}));
+      ->check(CLI::IsMember({"xml", "json", "csv", "tracker"}));
   command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");
   arguments->picture.add_to(*command, "draw the solution there");
   command->add_flag("--json", arguments->json, "print one JSON document");

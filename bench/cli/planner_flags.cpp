@@ -1,5 +1,7 @@
 #include "bench/cli/planner_flags.hpp"
 
+#include "sipplab/solution_io.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -138,6 +140,13 @@ double PictureFlags::animation_speed() const { return animate_ ? parse_real(*ani
 
 void add_database_flag(CLI::App& command, std::optional<std::string>& path) {
   command.add_option("--db", path, "history file; default $SIPPLAB_DB, else ./sipplab.db")->type_name("FILE");
+}
+
+CLI::Option* add_solution_format(CLI::App& command, std::optional<std::string>& format) {
+  std::vector<std::string> names;
+  for (const SolutionReader& reader : solution_readers()) names.emplace_back(reader.name);
+  return command.add_option("--solution-format", format, "format of the solution where guessing fails")
+      ->check(CLI::IsMember(names));
 }
 
 }  // namespace sipplab::cli

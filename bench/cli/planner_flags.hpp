@@ -19,6 +19,8 @@ class InstanceFlags {
  public:
   void add_to(CLI::App& command);
 
+  /// The file that names the robots; empty where none was given.
+  std::string robots_file() const { return files_.task.value_or(files_.instance.value_or("")); }
   /// Reads the files, warnings to stderr. Errors are one line.
   Expected<LoadedInstance, std::string> load() const;
 
@@ -45,6 +47,9 @@ class OptionFlags {
  private:
   std::vector<OptionValues> values_;
 };
+
+/// --solution-format: a name of solution_readers().
+CLI::Option* add_solution_format(CLI::App& command, std::optional<std::string>& format);
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;

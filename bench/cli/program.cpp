@@ -55,10 +55,8 @@ int parse_and_run(int argc, char** argv, const Laboratory& laboratory) {
   program.set_version_flag("--version", std::string("sipplab ") + SIPPLAB_VERSION);
 
   std::vector<Command> commands = {
-      add_plan_command(program),
-      add_validate_command(program),
-      add_generate_command(program),
-      add_documentation_command(program),
+      add_plan_command(program),     add_validate_command(program),      add_retime_command(program),
+      add_generate_command(program), add_documentation_command(program),
   };
   if (laboratory.add_commands != nullptr) {
     for (Command& command : laboratory.add_commands(program, invocation_of(argc, argv))) {

@@ -12,6 +12,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/cli/reproduce_solvers.hpp"
 #include "bench/present/paper_report.hpp"
 #include "db/database.hpp"
 #include "db/json_text.hpp"
@@ -135,6 +136,30 @@ void add_flags(CLI::App& command, ReproduceArguments& arguments) {
   command.add_flag("--json", arguments.json, "print one JSON document");
 }
 
+void add_solver_flags(CLI::App& command, SolversArguments& arguments) {
+  BenchArguments& sweep = arguments.sweep;
+  command
+      .add_option("--planner", arguments.planners, "NAME:PATH, one or more; default: those on PATH by name")
+      ->type_name("CMD");
+  command.add_option("--instances", arguments.folders, "sweep the instances of these folders as well")
+      ->type_name("DIR");
+  command.add_flag("--no-suite", arguments.no_suite, "and nothing else");
+  command.add_option("--robots", sweep.robots, "only these numbers of robots: 64,128")
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{0}, kMostRobots));
+  command.add_option("--count", sweep.count, "instances per cell; default 5")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
+  command.add_option("--seed", sweep.seed, "seed of instances")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
+      ->capture_default_str();
+  sweep.options.add(command, *find_option("time-limit"));
+  command.add_flag("--resume", sweep.resume, "do only what is missing of runs that were stopped");
+  command.add_option("-o,--output", arguments.folder, "write index.html and pictures there")
+      ->type_name("DIR");
+  add_database_flag(command, sweep.database);
+  command.add_flag("--json", sweep.json, "print one JSON document");
+}
+
 }  // namespace
 
 Command add_reproduce_command(CLI::App& program, const Invocation& invocation) {
@@ -147,7 +172,14 @@ Command add_reproduce_command(CLI::App& program, const Invocation& invocation) {
       "aamas2018",
       "Andreychuk and Yakovlev (AAMAS 2018), Figure 1 and Table 1; exit code 1 if something differs");
   add_flags(*paper, *arguments);
-  return {reproduce, [arguments] { return run_reproduce(*arguments); }};
+  auto solvers = std::make_shared<SolversArguments>();
+  solvers->sweep.invocation = invocation;
+  CLI::App* side_by_side = reproduce->add_subcommand(
+      "solvers", "planners of `sipplab planners` side by side, their plans re-timed; this one first");
+  add_solver_flags(*side_by_side, *solvers);
+  return {reproduce, [arguments, solvers, side_by_side] {
+            return side_by_side->parsed() ? run_reproduce_solvers(*solvers) : run_reproduce(*arguments);
+          }};
 }
 
 }  // namespace sipplab::cli

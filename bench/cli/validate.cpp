@@ -23,6 +23,7 @@ namespace {
 struct ValidateArguments {
   InstanceFlags instance;
   std::string solution;
+  std::optional<std::string> format;
   std::optional<std::string> ssi;
   OptionFlags motion;
   PictureFlags picture;
@@ -103,7 +104,8 @@ int exit_code(const Verdict& verdict) {
 
 int run_validate(const ValidateArguments& arguments) {
   const auto loaded = SIPPLAB_TRY_OR(fail, arguments.instance.load());
-  const auto solution = SIPPLAB_TRY_OR(fail, load_solution(arguments.solution, loaded.instance));
+  const auto solution =
+      SIPPLAB_TRY_OR(fail, load_solution(arguments.solution, loaded.instance, arguments.format.value_or("")));
   const SolutionDocument& document = solution;
   if (document.status != "solved") {
     return fail(arguments.solution + ": no solution in it (status " + document.status +
@@ -149,9 +151,12 @@ Command add_validate_command(CLI::App& program) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = program.add_subcommand("validate", "check a solution; exit code 1 if it is invalid");
   arguments->instance.add_to(*command);
-  command->add_option("--solution", arguments->solution, "solution (XML, JSON, CSV or plain lines)")
+  command
+      ->add_option("--solution", arguments->solution,
+                   "solution, ours or another program's; `sipplab planners` lists formats")
       ->required()
       ->type_name("FILE");
+  add_solution_format(*command, arguments->format);
   command->add_option("--ssi", arguments->ssi, "start-safe interval to check; default: the solution's")
       ->check(check_ssi)
       ->type_name("K");

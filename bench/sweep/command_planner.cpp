@@ -18,8 +18,11 @@
 
 #include "bench/interrupt.hpp"
 #include "bench/program.hpp"
+#include "bench/sweep/known_planners.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "planner/core/try.hpp"
+#include "planner/io/foreign_instance.hpp"
+#include "planner/io/step_plan.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
 #include "sipplab/instance_io.hpp"
@@ -56,11 +59,22 @@ constexpr Placeholder kFiles[] = {{"task", "task.xml"},
                                   {"instance", "instance.xml"},
                                   {"movingai_map", "instance.map"},
                                   {"scen", "instance.scen"},
+                                  {"yaml", "instance.yaml"},
+                                  {"ccbs_map", "ccbs_map.xml"},
+                                  {"ccbs_task", "ccbs_task.xml"},
+                                  {"ccbs_config", "ccbs_config.xml"},
                                   {"out", "solution"},
+                                  {"stats", "stats"},
                                   {"robots", ""},
                                   {"seed", ""},
-                                  {"time_limit", ""}};
+                                  {"small_seed", ""},
+                                  {"time_limit", ""},
+                                  {"whole_time_limit", ""}};
+/// Programs that take a C int as seed.
+constexpr std::uint64_t kSmallSeeds = std::uint64_t{1} << 31;
 constexpr std::string_view kLog = "log";
+/// Files whose names begin so hold what the program says of its run, as CSV: names, and a line of values.
+constexpr std::string_view kStats = "stats";
 
 std::string placeholder_words() {
   std::string words;
@@ -109,7 +123,9 @@ std::string shell_line(const CommandPlannerSpec& spec, const fs::path& folder, c
       with_placeholders(spec.command, [&](std::string_view name) -> std::optional<std::string> {
         if (name == "robots") return std::to_string(instance.agents.size());
         if (name == "seed") return std::to_string(options.seed);
+        if (name == "small_seed") return std::to_string(options.seed % kSmallSeeds);
         if (name == "time_limit") return format_real(limit_of(options));
+        if (name == "whole_time_limit") return format_real(std::max(1.0, std::floor(limit_of(options))));
         for (const Placeholder& placeholder : kFiles) {
           if (placeholder.name == name) return shell_quoted((folder / placeholder.file).string());
         }
@@ -236,6 +252,10 @@ std::string write_files(const fs::path& folder, const Instance& instance, const 
       {"instance.xml", write_instance_xml(instance)},
       {"instance.map", write_movingai_map(instance.map)},
       {"instance.scen", write_movingai_scen(instance, "instance.map")},
+      {"instance.yaml", write_lmrp_yaml(instance)},
+      {"ccbs_map.xml", write_ccbs_map(instance.map)},
+      {"ccbs_task.xml", write_ccbs_task(instance)},
+      {"ccbs_config.xml", write_ccbs_config(instance, told)},
   };
   for (const auto& [name, text] : files) {
     if (const auto error = write_file((folder / name).string(), text)) return error->message();
@@ -251,8 +271,9 @@ std::vector<fs::path> solution_files(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    const bool ours = name == kLog || std::any_of(std::begin(kFiles), std::end(kFiles),
-                                                  [&](const Placeholder& file) { return file.file == name; });
+    const bool ours = name == kLog || name.substr(0, kStats.size()) == kStats ||
+                      std::any_of(std::begin(kFiles), std::end(kFiles),
+                                  [&](const Placeholder& file) { return file.file == name; });
     if (ours || !entry.is_regular_file(ignored)) continue;
     found.push_back(entry.path());
   }
@@ -283,6 +304,13 @@ std::string last_words(const fs::path& log, int signal) {
   return "";
 }
 
+/// Whether it wrote these words.
+bool prints(const fs::path& log, std::string_view words) {
+  if (words.empty()) return false;
+  const auto text = read_file(log.string());
+  return text && text->find(words) != std::string::npos;
+}
+
 /// That ended the program, as far as the shell tells; 0 for none.
 int signal_of(const ProgramRun& run) {
   if (run.signal != 0) return run.signal;
@@ -305,9 +333,20 @@ bool gives_up(std::string_view text) {
   return line || trimmed(text).empty();
 }
 
+/// Adds the numbers of files with names and, in their last line, values.
+void add_stats(const fs::path& folder, SolutionDocument& document) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.substr(0, kStats.size()) != kStats || !entry.is_regular_file(ignored)) continue;
+    const Input<std::string> text = read_file(entry.path().string());
+    if (text) add_report_table(document, *text);
+  }
+}
+
 /// The row for a solution that was found; `path` as its messages name it.
-void judge(const Instance& instance, const MotionRules& rules, const fs::path& path, double rounding,
-           db::ResultRow& row) {
+void judge(const Instance& instance, const MotionRules& rules, const fs::path& path,
+           const CommandPlannerSpec& spec, db::ResultRow& row) {
   constexpr auto kReject = [](db::ResultRow& rejected, std::string why) {
     rejected.status = db::ResultStatus::kInvalid;
     rejected.valid = false;
@@ -319,19 +358,43 @@ void judge(const Instance& instance, const MotionRules& rules, const fs::path& p
     row.message = path.filename().string() + (trimmed(*text).empty() ? " is empty" : " says solved=0");
     return;
   }
-  const Input<SolutionDocument> document = parse_solution(*text, path.filename().string(), instance);
+  Input<SolutionDocument> document = parse_solution(*text, path.filename().string(), instance, spec.format);
   if (!document) return kReject(row, document.error().message());
   row.tries = document->tries;
   row.expansions = document->expansions;
   row.generations = document->generations;
+  add_stats(path.parent_path(), *document);
+  row.reported = document->reported;
   if (document->status != "solved") {
     row.status = document->status == "limit" ? db::ResultStatus::kLimit : db::ResultStatus::kFailed;
     if (document->status == "limit") row.limit = "time";
     return;
   }
   row.status = db::ResultStatus::kSolved;
+  if (spec.retime) return judge_retimed(instance, document->solution, rules, row, spec.rounding);
   add_solution(document->solution, row);
-  add_verdict(instance, document->solution, {0, {}, rules}, row, rounding);
+  add_verdict(instance, document->solution, {0, {}, rules}, row, spec.rounding);
+}
+
+/// The command of a planner of the table; the program is sought along PATH if it has no folder.
+Expected<CommandPlannerSpec, std::string> known_command(const KnownPlanner& known, const std::string& program,
+                                                        const std::string& name) {
+  std::error_code ignored;
+  const bool is_path = program.find('/') != std::string::npos || fs::is_regular_file(program, ignored);
+  if (program.empty() || (is_path && !fs::is_regular_file(program, ignored))) {
+    return Unexpected{program.empty() ? fmt::format("{}:, expected {}:PATH, the path of the program",
+                                                    known.name, known.name)
+                                      : program + ": no such file, expected a program"};
+  }
+  const std::string path = is_path ? fs::absolute(program, ignored).lexically_normal().string() : program;
+  CommandPlannerSpec spec;
+  spec.name = name.empty() ? std::string(known.name) : name;
+  spec.format = std::string(known.format);
+  spec.no_plan = std::string(known.no_plan);
+  spec.command = with_placeholders(known.command, [&](std::string_view placeholder) {
+    return placeholder == "program" ? std::optional(shell_quoted(path)) : std::nullopt;
+  });
+  return spec;
 }
 
 }  // namespace
@@ -339,15 +402,22 @@ void judge(const Instance& instance, const MotionRules& rules, const fs::path& p
 Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::string& text,
                                                                 const std::string& name) {
   CommandPlannerSpec spec;
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  if (const KnownPlanner* const known = find_known_planner(text.substr(0, colon))) {
+    return known_command(*known, std::string(trimmed(text.substr(std::min(colon + 1, text.size())))), name);
+  }
   if (text.substr(0, kPrefix.size()) == kPrefix)
     spec.command = std::string(trimmed(text.substr(kPrefix.size())));
   if (spec.command.empty()) {
     return Unexpected{in_quotes(text) +
-                      ", expected cmd:COMMAND, such as 'cmd:planner {task} {map} {config} {out}'"};
+                      ", expected cmd:COMMAND, such as 'cmd:planner {task} {map} {config} {out}', or "
+                      "NAME:PATH of a planner "
+                      "that `sipplab planners` lists"};
   }
   bool reads = false;
   with_placeholders(spec.command, [&](std::string_view placeholder) -> std::optional<std::string> {
-    reads = reads || placeholder == "task" || placeholder == "instance" || placeholder == "scen";
+    reads = reads || placeholder == "task" || placeholder == "instance" || placeholder == "scen" ||
+            placeholder == "yaml" || placeholder == "ccbs_task";
     return std::nullopt;
   });
   if (!reads) {
@@ -416,12 +486,17 @@ Expected<db::ResultRow, std::string> CommandPlanner::run(const Instance& instanc
     row.message = ending(run) + words;
   } else if (files.empty()) {
     row.message = "left no solution, " + ending(run) + words;
+  } else if (prints(log, spec_.no_plan)) {
+    const bool used_all = run.wall_time_s >= limit_of(options);
+    row.status = used_all ? db::ResultStatus::kLimit : db::ResultStatus::kFailed;
+    if (used_all) row.limit = "time";
+    row.message = "prints '" + spec_.no_plan + "', " + ending(run);
   } else if (files.size() > 1) {
     row.message = fmt::format("left {} new files, {} and {}{}, expected one, or {{out}}", files.size(),
                               files[0].filename().string(), files[1].filename().string(),
                               files.size() > 2 ? ", ..." : "");
   } else {
-    judge(instance, options.rules, files.front(), spec_.rounding, row);
+    judge(instance, options.rules, files.front(), spec_, row);
     if (row.status == db::ResultStatus::kFailed && !row.message.empty())
       row.message.append(", ").append(ending(run)).append(words);
   }

@@ -29,15 +29,18 @@ inline constexpr double kDefaultRounding = 1e-5;
 inline constexpr double kMaxRounding = 0.05;
 
 struct CommandPlannerSpec {
-  std::string command;  ///< as the shell takes it, with placeholders
-  std::string name;     ///< in the history: "cmd:NAME"
+  std::string command;      ///< as the shell takes it, with placeholders
+  std::string name;         ///< in the history: "cmd:NAME"
+  std::string format = {};  ///< of its solution, as sipplab::solution_readers() has it; empty: guessed
   std::uint64_t memory_limit_mib = kDefaultMemoryLimitMib;
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
+  std::string no_plan = {};  ///< what it prints where the file that it leaves is no plan; empty: nothing
+  bool retime = false;       ///< judge its plan with the earliest times for its ways and orders
 };
 
-/// From "cmd:COMMAND". Named after its program, or the script that its program runs, unless `name` says
-/// otherwise. Words of it that name files become absolute paths, since it will run elsewhere. Errors: one
-/// line.
+/// From "cmd:COMMAND", or "NAME:PATH" for a program of known_planners(). Named after its program, or the
+/// script that its program runs, unless `name` says otherwise. Words of it that name files become absolute
+/// paths, since it will run elsewhere. Errors: one line.
 Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::string& text,
                                                                 const std::string& name);
 
@@ -52,7 +55,9 @@ class CommandPlanner {
   /// validator accepts, `invalid` one that it rejects or that cannot be read, `limit` a program
   /// that was ended for its time or memory, `failed` everything else, an empty solution among it. Wall-clock
   /// time is that of the program from its start to its end. Tries and expansions are what the solution
-  /// states. Plans are not checked for start-safe intervals. Errors: one line, where nothing was run at all.
+  /// states; what else the program says of its run is kept apart. With `retime` the re-timed plan is judged,
+  /// see judge_retimed(). Plans are not checked for start-safe intervals. Errors: one line, where nothing was
+  /// run at all.
   Expected<db::ResultRow, std::string> run(const Instance& instance, const PlannerOptions& options) const;
 
  private:

@@ -7,8 +7,11 @@
 #include <string_view>
 
 #include "bench/sweep/instruction_count.hpp"
+#include "planner/core/clock.hpp"
 #include "planner/core/number.hpp"
 #include "planner/improve/objective.hpp"
+#include "planner/retime/retime.hpp"
+#include "planner/retime/steps.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -74,6 +77,39 @@ void add_verdict(const Instance& instance, const Solution& solution, const Valid
   if (report.valid()) return;
   row.status = db::ResultStatus::kInvalid;
   row.message = report.violations.front().message;
+}
+
+void judge_retimed(const Instance& instance, const Solution& given, const MotionRules& rules,
+                   db::ResultRow& row, double rounding) {
+  db::ResultRow as_given;
+  as_given.status = db::ResultStatus::kSolved;
+  add_verdict(instance, given, {0, {}, rules}, as_given, rounding);
+  db::RetimingRow retiming;
+  retiming.given_valid = as_given.valid.value_or(false);
+  retiming.given_violations = as_given.violations;
+  retiming.given_makespan_s = makespan_s(given);
+  retiming.given_flowtime_s = flowtime_s(given);
+  const Clock::time_point begin = Clock::now();
+  const auto result = retime(instance, given, rules);
+  retiming.retime_ns = nanoseconds(seconds_since(begin));
+  if (const auto steps = discrete_steps(instance, given)) {
+    retiming.unit_step_cost = 0;
+    for (const std::vector<Cell>& cells : *steps) {
+      *retiming.unit_step_cost += static_cast<std::int64_t>(cells.size()) - 1;
+    }
+  }
+  if (!result || !result->is_executable()) {
+    retiming.executable = false;
+    row.status = db::ResultStatus::kInvalid;
+    row.valid = false;
+    row.violations = as_given.violations;
+    row.message = result ? "not_executable: " + ring_text(instance, result->ring) : result.error();
+    row.retiming = retiming;
+    return;
+  }
+  row.retiming = retiming;
+  add_solution(result->solution, row);
+  add_verdict(instance, result->solution, {0, {}, rules}, row);
 }
 
 db::ResultRow described(const PlannerOptions& options, const PlanResult& result) {
@@ -142,7 +178,7 @@ std::vector<db::ProgressRow> progress_rows(const SolveResult& solved) {
 
 }  // namespace
 
-db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options) {
+db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options, bool retimed) {
   const InstructionCount instructions;
   const std::optional<std::int64_t> cpu_before_ns = cpu_time_ns();
   const SolveResult solved = solve(instance, options);
@@ -152,7 +188,12 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
   row.instructions = counted;
   if (cpu_before_ns && cpu_after_ns) row.cpu_time_ns = *cpu_after_ns - *cpu_before_ns;
   if (!solved.is_solved()) return row;
-  add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
+  if (retimed) {
+    row.ssi_kept_s = 0;
+    judge_retimed(instance, solved.solution(), options.rules, row);
+  } else {
+    add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
+  }
   if (!solved.improvement) return row;
   row.progress = progress_rows(solved);
   row.flowtime_bound_s = solved.improvement->log.bound.flowtime_s;

@@ -162,6 +162,13 @@ std::vector<Suite> make_suites() {
        .instances = 10,
        .blocks = {{kWarehouse, {96, 128, 160, 192}, over(by_rule), best},
                   {kEmpty, {128, 192, 256}, over(by_rule), best}}},
+      // For other planners: one setting, so that each plans every instance once.
+      {.name = "solvers",
+       .purpose = "rising numbers of robots on both maps of the paper, for planners side by side",
+       .instances = 5,
+       .time_limit_s = 10,
+       .blocks = {{kEmpty, {16, 64, 128, 192}, over("reschedule deterministic ssi 5")},
+                  {kWarehouse, {16, 32, 64, 96, 128, 192}, over("reschedule deterministic ssi 5")}}},
       // One robot for every sixteen cells: how time and memory grow while the density does not.
       {.name = "scale",
        .purpose = "256 to 16384 robots on maps that grow with them; the largest takes many minutes",

@@ -97,11 +97,12 @@ db::Result<db::Done> Recording::finish(db::RunStatus status) {
 }
 
 Sweep::Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
-             std::optional<CommandPlanner> command)
+             std::optional<CommandPlanner> command, bool retimed)
     : recording_(std::move(recording)),
       repetitions_(repetitions),
       progress_(cases_left(cases), count_left(cases), live_progress),
-      command_(std::move(command)) {
+      command_(std::move(command)),
+      retimed_(retimed) {
   sets_ = std::move(cases.sets);
   entries_ = entries_of(std::move(cases.cases));
 }
@@ -139,8 +140,9 @@ Expected<db::ResultRow, std::string> Sweep::plan_one(const PreparedInstance& pre
   }
   const LowerBound& bound = bound_of(prepared, parameters.options);
   memory.restart();
-  Expected<db::ResultRow, std::string> row = command_ ? command_->run(prepared.instance, parameters.options)
-                                                      : run_instance(prepared.instance, parameters.options);
+  Expected<db::ResultRow, std::string> row =
+      command_ ? command_->run(prepared.instance, parameters.options)
+               : run_instance(prepared.instance, parameters.options, retimed_);
   if (!row) return row;
   if (!command_) row->peak_memory_bytes = memory.bytes();
   // Improvement takes its time to find a greater one.

@@ -62,9 +62,10 @@ class Recording {
 class Sweep {
  public:
   /// Does the plannings that the cases name; `repetitions` of each instance belong together in reports where
-  /// all of a case are to be done. `command`: plans instead of this planner.
+  /// all of a case are to be done. `command`: plans instead of this planner. `retimed`: this planner's plans
+  /// are re-timed.
   Sweep(ExpandedSweep cases, Recording recording, std::int64_t repetitions, bool live_progress,
-        std::optional<CommandPlanner> command = std::nullopt);
+        std::optional<CommandPlanner> command = std::nullopt, bool retimed = false);
 
   /// Makes a benchmark of each case that is not finished. `fill_counters`: give every counter a value, as
   /// CSV needs (-1 for a mean over nothing).
@@ -101,6 +102,7 @@ class Sweep {
   std::int64_t repetitions_;
   Progress progress_;
   std::optional<CommandPlanner> command_;
+  bool retimed_ = false;
   std::optional<db::Error> error_;
   std::string first_invalid_;
 };

@@ -235,6 +235,107 @@ equal "$(row floods_output "status, message LIKE 'ended by signal 25%'")" 'faile
 refused "expected cmd:COMMAND" bench --planner "honest {task}"
 refused "expected \{task\}, \{instance\} or \{scen\}" bench --planner "cmd:honest {map}"
 
+# Plans in discrete time are judged with the earliest times for their ways, and kept as given beside that.
+planner stepwise <<'E2'
+exec "$sipplab" plan --task "$2" --method complete --format tracker -o "$3"
+E2
+sweeps stepwise --retime "${unlimited[@]}"
+says 'empty:9x9 .* 2/2 '
+equal "$(sqlite3 planners.db "SELECT count(*), sum(status = 'solved'), sum(unit_step_cost = given_flowtime_s),
+    sum(flowtime_s > 0), sum(retime_s >= 0) FROM v_retimed WHERE planner = 'cmd:stepwise'")" '2|2|2|2|2' 'plans in unit steps'
+
+# A planner of the table, by its name: one that jumps, and says how long it took.
+planner leaper <<'E2'
+while [ $# -gt 0 ]; do
+  case "$1" in
+    -o) printf 'runtime,solution cost,solver name\n0.5,7,leaper\n' >"$2" && shift ;;
+    --outputPaths=*) printf 'Agent 0: (0,0)->(8,8)->\n' >"${1#*=}" ;;
+  esac
+  shift
+done
+E2
+expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+  --db planners.db --planner "pbs:$work/leaper" --retime "${unlimited[@]}"
+equal "$(row pbs 'status, valid')" 'invalid|0' 'a planner that jumps'
+equal "$(row pbs "message LIKE 'solution:1: robot 0 %'")" 1 'what it did is said'
+equal "$(sqlite3 planners.db "SELECT count(*) FROM v_retimed WHERE planner = 'cmd:pbs'")" 0 'nothing was re-timed'
+refused 'pbs:, expected pbs:PATH, the path of the program' bench --planner pbs: --db planners.db
+refused '/nowhere/pbs: no such file, expected a program' bench --planner pbs:/nowhere/pbs --db planners.db
+expect 0 planners
+says 'lacam3 .*LaCAM3'
+says 'tracker-csv '
+
+# Planners side by side: this one, and one that is named; as a table and as a page.
+mkdir paper
+"$sipplab" generate --map empty:9x9 --agents 4 --count 2 --seed 5 -o paper >/dev/null
+cat >fake_lacam <<'E2'
+#!/bin/sh
+for word; do last=$word; done
+"$sipplab" plan --task "$4" --method complete --format tracker -o moves.csv && exec python3 - "$4" "$last" <<'E3'
+import csv, re, sys
+starts = [tuple(map(int, line.split('\t')[4:6])) for line in open(sys.argv[1]) if '\t' in line]
+plan = list(csv.DictReader(open('moves.csv')))[0]['solution_plan'].split('\n')
+by = {'r': (1, 0), 'l': (-1, 0), 'u': (0, 1), 'd': (0, -1), 'w': (0, 0)}
+ways = []
+for (x, y), moves in zip(starts, plan):
+    way = [(x, y)]
+    for run, letter in re.findall(r'(\d*)(\w)', moves):
+        way += [(way[-1][0] + by[letter][0] * i, way[-1][1] + by[letter][1] * i) for i in range(1, int(run or 1) + 1)]
+    ways.append(way)
+with open(sys.argv[2], 'w') as out:
+    out.write('solved=1\nsolution=\n')
+    for step in range(max(map(len, ways))):
+        out.write('%d:%s\n' % (step, ''.join('(%d,%d),' % way[min(step, len(way) - 1)] for way in ways)))
+E3
+E2
+chmod +x fake_lacam
+expect 0 reproduce solvers --planner "lacam:$work/fake_lacam" --instances paper --no-suite --time-limit 30 --db side.db -o side
+says '^[^ ]*paper +4 +cmd:lacam +2 +[0-2] +2 +0 +1 '
+says '^[^ ]*paper +4 +sipplab'
+[ -s side/index.html ] || complain 'no page of planners side by side'
+grep -q '<td>cmd:lacam</td>' side/index.html || complain 'the page does not name the planner'
+ls side/success-*.svg side/seconds-*.svg >/dev/null 2>&1 || complain 'no pictures of planners side by side'
+
+# What another program says of its run is kept, under its own names.
+planner talker <<'E2'
+printf 'solved=1\nsoc_lb=3\nsolution=\n0:' >"$3"
+awk -F'\t' 'NR > 1 { printf "(%d,%d),", $5, $6 }' "$2" >>"$3"
+E2
+sweeps talker --solution-format lacam "${unlimited[@]}"
+equal "$(sqlite3 planners.db "SELECT count(*), min(name), min(value) FROM v_reported WHERE planner = 'cmd:talker'")" \
+  '2|soc_lb|3.0' 'what a program says of its run'
+
+# A scenario of MovingAI: our plan in unit steps, the best that is known, and a plan to begin with.
+mkdir scenario
+printf 'type octile\nheight 2\nwidth 5\nmap\n.....\n.....\n' >scenario/lane.map
+printf 'version 1\n0\tlane.map\t5\t2\t0\t0\t4\t0\t4\n0\tlane.map\t5\t2\t4\t0\t0\t0\t4\n' >scenario/lane-random-7.scen
+expect 0 plan --task scenario/lane-random-7.scen --method complete --format tracker
+equal "$(head -n 2 out | tail -n 1 | cut -d, -f1-5)" 'lane,random,7,2,8' 'a row for MAPF-tracker'
+cp out lane.csv
+expect 1 plan --task scenario/lane-random-7.scen --format tracker --max-expansions 1
+expect 0 bench --instances scenario --method complete --retime --db planners.db
+printf 'map_name,scen_type,type_id,agents,lower_cost,solution_cost\nlane,random,7,2,8,9\nlane,random,7,2,7,12\n' >known.csv
+expect 0 import tracker known.csv lane.csv --db planners.db
+says 'known.csv: 2 best known costs'
+equal "$(sqlite3 planners.db "SELECT lower_cost, solution_cost, planner, unit_step_cost >= 8,
+    above_best_known = unit_step_cost - 9 FROM v_best_known")" '8|9|sipplab any-angle:no method:complete|1|1' 'the best that is known'
+# All of it comes with a merge.
+counts='SELECT (SELECT count(*) FROM v_retimed), (SELECT count(*) FROM v_reported), (SELECT count(*) FROM v_best_known)'
+printf 'map_name,scen_type,type_id,agents,lower_cost,solution_cost\nlane,random,7,2,0,30\n' >worse.csv
+expect 0 import tracker worse.csv --db merged.db
+expect 0 merge planners.db --db merged.db
+equal "$(sqlite3 merged.db "$counts")" "$(sqlite3 planners.db "$counts")" 'what is merged'
+equal "$(sqlite3 merged.db 'SELECT lower_cost, solution_cost FROM best_known')" '8|9' 'the best of both histories'
+expect 0 doctor --db merged.db
+expect 0 retime --task scenario/lane-random-7.scen --solution lane.csv -o lane.json
+says 'retimed +valid'
+expect 0 plan --task scenario/lane-random-7.scen --solution lane.csv --improve 50i --json
+says '"status": "solved"'
+python3 -c 'import json; r = json.load(open("out")); g = json.load(open("lane.json")); assert r["flowtime"] < g["flowtime"], (r["flowtime"], g["flowtime"])' ||
+  complain 'a plan in unit steps is not improved'
+printf 'r\n4l\n' >broken.txt
+refused 'invalid also with other times|not executable' plan --task scenario/lane-random-7.scen --solution broken.txt
+
 if [ "$broken" -gt 0 ]; then
   printf '%d promises are broken\n' "$broken"
   exit 1

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "planner/complete/lacam.hpp"
-#include "planner/complete/schedule.hpp"
 #include "planner/complete/start_order.hpp"
 #include "planner/core/clock.hpp"
 #include "planner/core/tolerances.hpp"
+#include "planner/retime/unit_schedule.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab {
 namespace {
@@ -69,6 +72,7 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
   limits.max_memory_bytes = kMaxSearchBytes;
   limits.deadline = deadline_after(Clock::now(), options.time_limit_s);
   const double unit_move_s = instance.agents.empty() ? 1 : 1 / instance.agents.front().speed_cells_per_s;
+  const double reach_cells = std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0);
   Lacam lacam(grid, starts, goals);
   Random seeds(options.seed);
   CompleteResult result;
@@ -83,13 +87,13 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
 
     Visits visits(search.steps, grid.size());
     visits.remove_round_trips();
-    const std::vector<ExactTime> arrivals = earliest_arrivals(grid, visits);
-    Solution solution = timed_motions(grid, visits, arrivals, unit_move_s);
-    const double cost = options.objective.of(flowtime_s(solution), makespan_s(solution));
+    UnitSchedule schedule = unit_schedule(grid, visits, reach_cells, unit_move_s);
+    PLANNER_ASSERT(schedule.circle.empty());  // rings do not turn in the search
+    const double cost = options.objective.of(flowtime_s(schedule.solution), makespan_s(schedule.solution));
     if (plans > 0 && cost >= least_cost) continue;
     least_cost = cost;
-    result.solution = std::move(solution);
-    StartOrder kept = longest_kept_order(instance, visits, arrivals, options.ssi_s);
+    result.solution = std::move(schedule.solution);
+    StartOrder kept = longest_kept_order(instance, visits, schedule.arrivals_s, options.ssi_s);
     result.order = std::move(kept.order);
     result.ssi_kept_s = kept.kept_s;
   }

@@ -6,12 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "planner/complete/free_grid.hpp"
+#include "planner/grid/free_grid.hpp"
 
 namespace sipplab {
-
-/// Position of an agent in Instance::agents.
-using RobotId = std::uint32_t;
 
 /// Between neighbours on a grid of four neighbours distances differ by exactly one, so two
 /// bits a cell will do: "not seen yet", or the distance modulo 3. 10,000 robots on 40,000

@@ -20,7 +20,7 @@ struct Crossing {
 
 /// Sorted by time. `pardon_goals`: robots whose goal is the start are left out.
 std::vector<Crossing> crossings(const Instance& instance, const Visits& visits,
-                                const std::vector<ExactTime>& arrivals, double until_s, bool pardon_goals) {
+                                const std::vector<double>& arrivals_s, double until_s, bool pardon_goals) {
   std::unordered_map<CellId, RobotId> start_of;
   for (RobotId robot = 0; robot < visits.robots(); ++robot) {
     start_of.emplace(visits[visits.first_of(robot)].cell, robot);
@@ -37,7 +37,7 @@ std::vector<Crossing> crossings(const Instance& instance, const Visits& visits,
       if (pardon_goals && visits[id].cell == goal) continue;
       // The robot comes from a neighbour and is too near once it is within the two radii.
       const double reach_cells = agent.radius_cells + instance.agents[owner->second].radius_cells;
-      const double from_s = arrivals[id].seconds(unit_move_s) - reach_cells * unit_move_s;
+      const double from_s = arrivals_s[id] - reach_cells * unit_move_s;
       if (from_s < until_s) found.push_back({from_s, owner->second, robot});
     }
   }
@@ -74,15 +74,15 @@ std::vector<AgentIndex> sorted_order(std::size_t robots, std::span<const Crossin
 }  // namespace
 
 StartOrder longest_kept_order(const Instance& instance, const Visits& visits,
-                              const std::vector<ExactTime>& arrivals, double wanted_s) {
+                              const std::vector<double>& arrivals_s, double wanted_s) {
   const std::size_t robots = visits.robots();
   constexpr double kForEver = std::numeric_limits<double>::infinity();
   if (wanted_s == kForEver) {
     std::vector<AgentIndex> order =
-        sorted_order(robots, crossings(instance, visits, arrivals, kForEver, true));
+        sorted_order(robots, crossings(instance, visits, arrivals_s, kForEver, true));
     if (order.size() == robots) return {std::move(order), kForEver};
   }
-  const std::vector<Crossing> all = crossings(instance, visits, arrivals, wanted_s, false);
+  const std::vector<Crossing> all = crossings(instance, visits, arrivals_s, wanted_s, false);
   const auto order_of_first = [&](std::size_t count) {
     return sorted_order(robots, std::span(all).first(count));
   };

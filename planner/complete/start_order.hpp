@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "planner/complete/exact_time.hpp"
-#include "planner/complete/visits.hpp"
+#include "planner/retime/exact_time.hpp"
+#include "planner/retime/visits.hpp"
 #include "sipplab/instance.hpp"
 
 namespace sipplab {
@@ -24,6 +24,6 @@ struct StartOrder {
 /// REQUIRES: wanted_s >= 0, infinity included: then goals on starts are pardoned as
 /// PlannerOptions says, if that keeps the promise for ever. Robots are equally fast.
 StartOrder longest_kept_order(const Instance& instance, const Visits& visits,
-                              const std::vector<ExactTime>& arrivals, double wanted_s);
+                              const std::vector<double>& arrivals_s, double wanted_s);
 
 }  // namespace sipplab

@@ -140,16 +140,33 @@ OpenInterval unsafe_past_rest(const Move& move, const MovingDisk& obstacle, doub
 
 }  // namespace
 
-OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach) {
-  PLANNER_ASSERT(move.way.length > 0);
-  if (obstacle.at_rest()) return unsafe_past_rest(move, obstacle, reach);
-  Span span(kContactSlackCells / std::max(move.speed, obstacle.speed));
+namespace {
+
+OpenInterval unsafe_past_motion(const Move& move, const MovingDisk& obstacle, double reach, double slack_s) {
+  Span span(slack_s);
   add_obstacle_at(obstacle.way.from, obstacle.begin_s, move, reach, span);
   add_obstacle_at(obstacle.way.to, obstacle.end_s, move, reach, span);
   add_mover_at(move.way.from, 0, obstacle, reach, span);
   add_mover_at(move.way.to, move.duration, obstacle, reach, span);
   add_tangents(move, obstacle, reach, span);
   return span.interval();
+}
+
+}  // namespace
+
+OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach) {
+  PLANNER_ASSERT(move.way.length > 0);
+  if (obstacle.at_rest()) return unsafe_past_rest(move, obstacle, reach);
+  return unsafe_past_motion(move, obstacle, reach, kContactSlackCells / std::max(move.speed, obstacle.speed));
+}
+
+OpenInterval meeting_interval(const Move& move, const MovingDisk& other, double reach) {
+  PLANNER_ASSERT(move.way.length > 0 && !other.at_rest());
+  return unsafe_past_motion(move, other, reach, 0);
+}
+
+bool reaches(const Displacement& way, Vec2 place, double reach) {
+  return !within_reach(place, way, reach).empty;
 }
 
 bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {

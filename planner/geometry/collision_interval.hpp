@@ -37,6 +37,16 @@ OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double r
 /// REQUIRES: move.way.length > 0.
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach);
 
+/// The same for two moves without slack (1)(2), for schedules in which robots touch one after the other: a
+/// thousand slacks would add up. With other.begin_s = 0 these are the departures of `move` relative to the
+/// other one's. (3) holds.
+///
+/// REQUIRES: move.way.length > 0, and the other moves.
+OpenInterval meeting_interval(const Move& move, const MovingDisk& other, double reach);
+
+/// Whether `way` comes within reach of `place` (3). A `way` of no length is a point.
+bool reaches(const Displacement& way, Vec2 place, double reach);
+
 /// Whether `way` comes within reach of `place` outside the disk of radius `reach` around
 /// `pardoned`. A `way` of no length is a point.
 bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);

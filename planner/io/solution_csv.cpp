@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 
+#include "planner/io/csv_text.hpp"
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/text.hpp"
 
@@ -13,60 +14,6 @@ constexpr std::size_t kColumns = 8;
 /// With the heading at the end of a turn, empty for other motions.
 constexpr std::string_view kHeaderWithTurns = "agent,id,t0,t1,x0,y0,x1,y1,turn_to";
 constexpr std::size_t kColumnsWithTurns = 9;
-
-void append_field(std::string& out, std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
-struct Record {
-  std::vector<std::string> fields;
-  int line = 0;
-  bool complete = true;  ///< false where a quote stays open
-};
-
-/// Cuts the next record off `rest`; quoted fields may hold line breaks.
-Record next_record(std::string_view& rest, int& line) {
-  Record record;
-  record.line = line;
-  record.fields.emplace_back();
-  bool in_quotes_now = false;
-  std::size_t at = 0;
-  for (; at < rest.size(); ++at) {
-    const char c = rest[at];
-    if (c == '\n') ++line;
-    if (in_quotes_now) {
-      if (c != '"') {
-        record.fields.back() += c;
-      } else if (at + 1 < rest.size() && rest[at + 1] == '"') {
-        record.fields.back() += rest[++at];
-      } else {
-        in_quotes_now = false;
-      }
-    } else if (c == '"') {
-      in_quotes_now = true;
-    } else if (c == ',') {
-      // A line with many commas is wrong however many there are.
-      if (record.fields.size() <= kColumnsWithTurns) record.fields.emplace_back();
-    } else if (c == '\n') {
-      ++at;
-      break;
-    } else if (c != '\r') {
-      record.fields.back() += c;
-    }
-  }
-  record.complete = !in_quotes_now;
-  rest.remove_prefix(at);
-  return record;
-}
 
 /// The motion of a record, or what is wrong with it.
 Expected<TimedMotion, std::string> motion_of(const std::vector<std::string>& fields) {
@@ -105,7 +52,7 @@ bool needs_place(const Trajectory& trajectory) {
 void append_line(std::string& out, std::size_t agent, std::string_view id, const TimedMotion& motion,
                  bool with_turns) {
   out += std::to_string(agent) + ",";
-  append_field(out, id);
+  append_csv_field(out, id);
   out += ',';
   append_real(out, motion.begin_s);
   out += ',';
@@ -151,9 +98,9 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
 
   int line = 1;
   std::string_view rest = text;
-  next_record(rest, line);
+  next_csv_record(rest, line, kColumnsWithTurns);
   while (!rest.empty()) {
-    const Record record = next_record(rest, line);
+    const CsvRecord record = next_csv_record(rest, line, kColumnsWithTurns);
     if (!record.complete) return error(record.line, "a quote that is not closed", "a closing \"");
     if (record.fields.size() == 1 && trimmed(record.fields[0]).empty()) continue;
     if (record.fields.size() != columns) {

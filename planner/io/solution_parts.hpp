@@ -20,6 +20,26 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
                                            const Instance& instance);
 Input<SolutionDocument> parse_solution_plain(std::string_view text, const std::string& file_name,
                                              const Instance& instance);
+/// Of other programs: result texts of LaCAM, lines of cells of EECBS and its kin, YAML of
+/// libMultiRobotPlanning, and MAPF-tracker's moves, by themselves or in its table.
+Input<SolutionDocument> parse_solution_lacam(std::string_view text, const std::string& file_name,
+                                             const Instance& instance);
+enum class CellOrder { kGuess, kRowsFirst, kColumnsFirst };
+Input<SolutionDocument> parse_solution_paths(std::string_view text, const std::string& file_name,
+                                             const Instance& instance, CellOrder order);
+Input<SolutionDocument> parse_solution_yaml(std::string_view text, const std::string& file_name,
+                                            const Instance& instance);
+Input<SolutionDocument> parse_solution_tracker(std::string_view text, const std::string& file_name,
+                                               const Instance& instance);
+Input<SolutionDocument> parse_solution_tracker_table(std::string_view text, const std::string& file_name,
+                                                     const Instance& instance);
+/// Whether a text that begins so is one of them.
+bool is_lacam_solution(std::string_view head);
+bool is_path_solution(std::string_view head);
+bool is_yaml_solution(std::string_view head);
+bool is_tracker_solution(std::string_view head);
+bool is_tracker_table(std::string_view head);
+
 /// Whether the text begins as a solution in plain lines does: "0: (3,4,0)", or "# words".
 bool is_plain_solution(std::string_view head);
 

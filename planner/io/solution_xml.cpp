@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/io/solution_parts.hpp"
+#include "planner/io/step_plan.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/write_xml.hpp"
 #include "planner/io/xml_options.hpp"
@@ -84,6 +85,9 @@ const char* implied_status(xml_node summary, const Instance& instance) {
 
 void read_summary(XmlReader& reader, xml_node summary, const Instance& instance, SolutionDocument& document) {
   document.planning_seconds = reader.optional_real(summary, "runtime", kTimes).value_or(0);
+  for (const char* const name : {"runtime", "time", "tries", "flowtime", "makespan"}) {
+    add_report(document, name, summary.attribute(name).value());
+  }
   document.makespan_s = reader.optional_real(summary, "makespan", kTimes);
   document.flowtime_s = reader.optional_real(summary, "flowtime", kTimes);
   document.tries = read_count(reader, summary, "tries");
@@ -148,6 +152,13 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
     }
     SectionOptions options{speed_of(reader, element, instance, position), true, nullptr};
     if (position < instance.agents.size()) options.robot = &instance.agents[position];
+    if (element.attribute("number")) {  // Continuous-CBS: robots have numbers, and cells rows and columns
+      options.names = kRowsAndColumns;
+      options.robot = nullptr;
+      if (position < instance.agents.size()) {
+        options.speed_cells_per_s = instance.agents[position].speed_cells_per_s;
+      }
+    }
     const pugi::xml_attribute id = element.attribute("id");
     Trajectory trajectory = read_sections(reader, path, options);
     std::optional<Cell> start;
@@ -158,6 +169,10 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
     if (!problem.empty()) return reader.fail(element, problem, "one <agent> for each robot of the instance");
   }
   if (position == 0 && document.status != "solved") return;
+  if (position == 0 && log.parent().child("agent").attribute("start_i")) {
+    document.status = "failed";  // how Continuous-CBS says that it found none
+    return;
+  }
   if (const auto missing = collector.missing()) {
     return reader.fail(log, "no <agent> for robot " + in_quotes(instance.agents[*missing].id),
                        "one for each robot of the instance");

@@ -87,17 +87,19 @@ Cell read_cell(XmlReader& reader, xml_node node, const char* x, const char* y) {
 
 Trajectory read_sections(XmlReader& reader, xml_node node, const SectionOptions& options) {
   Trajectory trajectory;
+  const SectionNames& names = options.names;
   double now_s = 0;
   std::optional<Cell> at;
   HeadingReader headings(reader, options);
   for (const xml_node section : node.children("section")) {
-    reader.expect_only_attributes(section,
-                                  {"id", "start.x", "start.y", "start.heading", "goal.x", "goal.y",
-                                   "goal.heading", "duration", "begin", "end", "turn"},
-                                  XmlReader::Others::kIgnored);
+    reader.expect_only_attributes(
+        section,
+        {"id", "number", names.start_x, names.start_y, "start.heading", names.goal_x, names.goal_y,
+         "goal.heading", "duration", "begin", "end", "turn"},
+        XmlReader::Others::kIgnored);
     TimedMotion motion;
-    motion.from = read_cell(reader, section, "start.x", "start.y");
-    motion.to = read_cell(reader, section, "goal.x", "goal.y");
+    motion.from = read_cell(reader, section, names.start_x, names.start_y);
+    motion.to = read_cell(reader, section, names.goal_x, names.goal_y);
     const bool exact = section.attribute("begin") && section.attribute("end");
     const double turned_deg = headings.read(section, exact, motion);
     const NumberRange& times = exact && options.only_form ? kAnyNumber : kDurations;

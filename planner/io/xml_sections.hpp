@@ -10,6 +10,17 @@
 
 namespace sipplab {
 
+/// How attributes of a <section> are called.
+struct SectionNames {
+  const char* start_x;
+  const char* start_y;
+  const char* goal_x;
+  const char* goal_y;
+};
+inline constexpr SectionNames kPlaces{"start.x", "start.y", "goal.x", "goal.y"};
+/// Those of Continuous-CBS.
+inline constexpr SectionNames kRowsAndColumns{"start_j", "start_i", "goal_j", "goal_i"};
+
 struct SectionOptions {
   /// Speed of the robot that made the sections, in cells per second. Sections
   /// without exact times whose duration is length / speed to within the published
@@ -23,6 +34,7 @@ struct SectionOptions {
   /// goal heading) to within rounding becomes just that, and a duration likewise. None:
   /// headings are passed over.
   const Agent* robot = nullptr;
+  SectionNames names = kPlaces;
 };
 
 /// The cell in two attributes; a missing one is an error.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/complete/exact_time.hpp"
-#include "planner/complete/schedule.hpp"
+#include "planner/retime/exact_time.hpp"
+#include "planner/retime/unit_schedule.hpp"
 #include "sipplab/validator.hpp"
 
 namespace sipplab {

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sipplab/error.hpp"
@@ -41,6 +43,8 @@ struct SolutionDocument {
   std::optional<double> ssi_kept_s;
   /// What it was planned with, as the table of options has it. Kept by JSON (extra keys at the end) and XML.
   std::optional<PlannerOptions> options;
+  /// What another program says of its run, under its own names: numbers that nobody checked. Not written.
+  std::vector<std::pair<std::string, double>> reported;
   /// Told by JSON, where there is something to tell, and not read back.
   std::vector<EjectionRecord> ejections;
   std::vector<BestStep> steps;
@@ -67,8 +71,20 @@ std::string write_solution(SolutionFormat format, const Instance& instance, cons
 /// section that takes its length over the robot's speed to within that rounding gets exactly that duration. A
 /// robot without motions stays where the file says that it begins, else at its start. Whether the solution is
 /// right is for validate() to say; here only its form is checked.
+///
+/// Plans in discrete time are read as their programs write them: a step lasts as long as the slowest robot needs
+/// for a cell, and what disagrees with the instance is an error, as another start, a jump, too few robots, rows
+/// and columns exchanged. `format` is one of solution_readers(), where guessing fails; empty: guess.
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
-                                       const Instance& instance);
-Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance);
+                                       const Instance& instance, std::string_view format = {});
+Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance,
+                                      std::string_view format = {});
+
+/// A format that is read, by a name that says which program writes it.
+struct SolutionReader {
+  std::string_view name;
+  std::string_view words;  ///< for lists
+};
+std::span<const SolutionReader> solution_readers();
 
 }  // namespace sipplab

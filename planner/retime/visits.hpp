@@ -2,10 +2,12 @@
 // its clock is taken away.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "planner/complete/pibt.hpp"
+#include "planner/grid/free_grid.hpp"
 
 namespace sipplab {
 
@@ -25,9 +27,10 @@ struct Visit {
 
 class Visits {
  public:
+  Visits() = default;
   /// The visits of a plan whose steps keep the rules of Pibt::make_step.
   /// O(robots x steps + cells).
-  Visits(const std::vector<Configuration>& steps, std::size_t cells);
+  Visits(const std::vector<std::vector<CellId>>& steps, std::size_t cells);
 
   std::size_t robots() const { return first_.size(); }
   std::size_t size() const { return visits_.size(); }
@@ -44,10 +47,37 @@ class Visits {
   void remove_round_trips();
 
  private:
+  friend class VisitCollector;
+
   void join(VisitId earlier, VisitId later, std::vector<VisitId>& to_look_at);
 
   std::vector<Visit> visits_;
   std::vector<VisitId> first_;
+};
+
+/// Visits of a plan in any times, robot by robot.
+class VisitCollector {
+ public:
+  explicit VisitCollector(std::size_t cells) : cells_(cells) {}
+
+  /// A further robot is at this cell at time 0.
+  void add_robot(CellId cell);
+  /// It goes on to this cell.
+  void add_move(CellId cell, double begin_s, double end_s);
+
+  /// None if two robots are at the same cell at the same time, or one comes where another one stays for ever.
+  /// O(visits log(visits to a cell)).
+  std::optional<Visits> take() &&;
+
+ private:
+  struct Stay {
+    double begin_s = 0;
+    double end_s = 0;
+  };
+
+  std::size_t cells_;
+  Visits visits_;
+  std::vector<Stay> stays_;  ///< of visits
 };
 
 }  // namespace sipplab

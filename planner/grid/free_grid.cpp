@@ -1,4 +1,4 @@
-#include "planner/complete/free_grid.hpp"
+#include "planner/grid/free_grid.hpp"
 
 #include "planner/grid/neighbourhood.hpp"
 

@@ -12,6 +12,8 @@ namespace sipplab {
 /// Number of a free cell, counted from 0 in row-major order.
 using CellId = std::uint32_t;
 inline constexpr CellId kNoCell = UINT32_MAX;
+/// Position of a robot among those on the grid.
+using RobotId = std::uint32_t;
 
 class FreeGrid {
  public:
