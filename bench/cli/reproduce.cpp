@@ -153,7 +153,8 @@ void add_solver_flags(CLI::App& command, SolversArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   sweep.options.add(command, *find_option("time-limit"));
-  command.add_flag("--resume", sweep.resume, "do only what is missing of runs that were stopped");
+  sweep.resume =
+      command.add_flag("--resume")->description("do only what is missing of runs that were stopped");
   command.add_option("-o,--output", arguments.folder, "write index.html and pictures there")
       ->type_name("DIR");
   add_database_flag(command, sweep.database);
