@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,6 +17,7 @@
 #include "bench/program.hpp"
 #include "bench/sweep/known_planners.hpp"
 #include "bench/sweep/run_instance.hpp"
+#include "bench/sweep/shell_command.hpp"
 #include "planner/core/try.hpp"
 #include "planner/io/foreign_instance.hpp"
 #include "planner/io/step_plan.hpp"
@@ -105,12 +103,6 @@ std::string with_placeholders(std::string_view text, const Replace& replace) {
   return out + std::string(text);
 }
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 double limit_of(const PlannerOptions& options) {
   return std::isinf(options.time_limit_s) ? kDefaultCommandLimitS : options.time_limit_s;
 }
@@ -132,109 +124,6 @@ std::string shell_line(const CommandPlannerSpec& spec, const fs::path& folder, c
         return std::nullopt;
       });
   return fmt::format("ulimit -c 0 && ulimit -f {} || exit 126\n{}", kFileLimitMib * kBlocksPerMib, command);
-}
-
-/// Whether a word means itself to the shell.
-bool is_plain_word(std::string_view word) {
-  return std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("/._-+@%,:").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-}
-
-/// And may name a file by its path.
-bool is_plain_path(std::string_view word) {
-  return word.find_first_of("/.") != std::string_view::npos && is_plain_word(word);
-}
-
-/// Programs that only start another one, with their options that take a word, and the words before it.
-struct Starter {
-  std::string_view name;
-  std::string_view options;
-  std::size_t words;
-};
-constexpr Starter kStarters[] = {
-    {"env", " -u -C ", 0},  {"nice", " -n ", 0}, {"ionice", " -c -n ", 0}, {"timeout", " -s -k ", 1},
-    {"time", " -f -o ", 0}, {"nohup", "", 0},    {"setsid", "", 0},        {"stdbuf", " -i -o -e ", 0},
-    {"taskset", "", 1},     {"chrt", "", 1},     {"exec", " -a ", 0},      {"numactl", " -N -m ", 0}};
-/// What runs a script; versions are digits behind the name.
-constexpr std::string_view kInterpreters =
-    " sh bash dash ksh zsh python pypy perl ruby node lua julia Rscript java php ";
-/// Before the program, up to && or a semicolon.
-constexpr std::string_view kSettings = " cd export ulimit umask set ";
-
-bool is_in(std::string_view words, std::string_view word) {
-  return words.find(fmt::format(" {} ", word)) != std::string_view::npos;
-}
-
-std::string base_name(const std::string& word) { return fs::path(word).filename().string(); }
-
-/// The words from the program on, without what only starts it: assignments, `env`, `nice`, `cd x &&`.
-std::vector<std::string> from_program(const std::string& command) {
-  std::istringstream text(command);
-  std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
-  const auto drop = [&words](std::size_t count) {
-    words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(std::min(count, words.size())));
-  };
-  while (words.size() > 1) {
-    const std::string first = base_name(words[0]);
-    const auto starter = std::find_if(std::begin(kStarters), std::end(kStarters),
-                                      [&](const Starter& known) { return known.name == first; });
-    if (is_in(kSettings, first)) {
-      const auto end = std::find_if(words.begin(), words.end(), [](const std::string& word) {
-        return word == "&&" || word.back() == ';';
-      });
-      if (end == words.end()) return words;
-      words.erase(words.begin(), end + 1);
-    } else if (starter != std::end(kStarters)) {
-      drop(1);
-      while (!words.empty() && words[0].front() == '-') drop(is_in(starter->options, words[0]) ? 2 : 1);
-      drop(starter->words);
-    } else if (words[0].find('=') < words[0].find('/')) {
-      drop(1);
-    } else {
-      break;
-    }
-  }
-  return words;
-}
-
-/// The program's file name; of a script that an interpreter is to run, the script's.
-std::string name_of(const std::string& command) {
-  const std::vector<std::string> words = from_program(command);
-  if (words.empty()) return "";
-  const std::string program = base_name(words[0]);
-  if (!is_in(kInterpreters, program.substr(0, program.find_first_of("0123456789")))) return program;
-  std::optional<std::string> script;
-  for (std::size_t i = 1; i < words.size() && words[i].find('{') == std::string::npos; ++i) {
-    if (words[i].front() == '-' || !is_plain_word(words[i])) continue;
-    std::error_code ignored;
-    if (fs::is_regular_file(words[i], ignored)) return base_name(words[i]);
-    if (!script) script = words[i];
-  }
-  return script ? base_name(*script) : program;
-}
-
-/// The command with absolute paths for words that name files from here, such as ./planner or script.py, and
-/// for the folder of a `cd`: it runs in a folder of its own.
-std::string with_absolute_paths(const std::string& command) {
-  std::string absolute;
-  std::string_view rest = command;
-  std::string_view before;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find_first_of(" \t\n"), rest.size());
-    const std::string_view word = rest.substr(0, end);
-    std::error_code ignored;
-    const fs::path path(word);
-    const bool is_file = is_plain_path(word) && path.is_relative() && fs::is_regular_file(path, ignored);
-    const bool is_folder = before == "cd" && path.is_relative() && fs::is_directory(path, ignored);
-    before = word;
-    absolute += is_file || is_folder ? shell_quoted(fs::absolute(path, ignored).lexically_normal().string())
-                                     : std::string(word);
-    if (end < rest.size()) absolute += rest[end];
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return absolute;
 }
 
 /// Empties the folder and writes the instance into it. An error, or nothing.
@@ -433,7 +322,7 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
       !fs::exists(program, ignored)) {
     return Unexpected{program + ": no such file, expected a program"};
   }
-  spec.name = name.empty() ? name_of(spec.command) : name;
+  spec.name = name.empty() ? program_name_of(spec.command) : name;
   spec.command = with_absolute_paths(spec.command);
   return spec;
 }
