@@ -51,10 +51,9 @@ def find_programs(build):
     for test in json.loads(run_or_exit(["ctest", "--test-dir", str(build), "--show-only=json-v1"]))["tests"]:
         kind = KINDS.get(test["name"].split(".")[0])
         if kind == "example":
-            path = test["command"][0]
-            programs[Path(path).name] = Program(Path(path).name, kind, [
-                path, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={NO_JUDGES}"])
-        elif kind:
+            name = Path(test["command"][0]).name
+            programs[name] = Program(name, kind, [test["command"][0], "--gtest_fail_fast", f"--gtest_filter={NO_JUDGES}"])
+        elif kind and "command" in test:
             programs[test["name"]] = Program(test["name"], kind, test["command"])
     return list(programs.values())
 
@@ -122,12 +121,12 @@ class Run:
                 return self._stop()
             if self.lines:
                 self.lines.append(line)
-            elif line.startswith("- "):
-                self.title = title = line[2:]
+            elif line.startswith(("- ", "[ RUN      ] ")):
+                self.title = title = line.removeprefix("- ").removeprefix("[ RUN      ] ")
             elif line.startswith("Falsifiable after"):
                 self.title, self.lines = title or self.program.name, [line]
             elif "[  FAILED  ]" in line and self.program.kind == "example":
-                self.title, self.lines = line.split("]", 1)[1].split(" (")[0].split(", where")[0].strip(), [line]
+                self.lines = [line]
                 return self._stop()
             elif line.startswith("BROKEN: "):
                 self.title, self.lines = line, [line]
