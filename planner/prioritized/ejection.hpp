@@ -14,7 +14,7 @@ namespace sipplab {
 ///  (2) candidates are put back one by one, those ejected most often first, if the robot still finds a path;
 ///  (3) the others are ejected: the robot takes its path, and they are planned next.
 /// Keeping robots that were ejected often breaks cycles; a robot ejected kMostEjections times ends the run as
-/// failed. The trace says which robot ejected which. The final order keeps the promise of start-safe
+/// failed. The trace says which robot ejected which. The final order keeps the guarantee of start-safe
 /// intervals (StartPrecedence).
 /// REQUIRES: !find_error(instance), options.rescheduling == Rescheduling::kEjection,
 /// !options.rules.inflates().

@@ -1,4 +1,4 @@
-// The complete planner: what it solves, against an exhaustive search; that its plans are
+// LaCAM: what it solves, against an exhaustive search; that its plans are
 // valid; for how long its order keeps the starts safe.
 #include <rapidcheck.h>
 
@@ -93,7 +93,7 @@ int main() {
     RC_ASSERT(result.status == (solvable ? LacamStatus::kSolved : LacamStatus::kUnsolvable));
   });
 
-  passed &= property("plan_complete (2): every plan of a crowd is valid, its promise kept", [] {
+  passed &= property("plan_complete (2): every plan of a crowd is valid, its guarantee kept", [] {
     const PlanCase plan_case = any_crowd();
     const CompleteResult result = plan_complete(plan_case.instance, options_of(plan_case));
     RC_CLASSIFY(result.status == LacamStatus::kSolved, "solved");
@@ -101,7 +101,7 @@ int main() {
     RC_ASSERT(is_valid(plan_case.instance, result.solution, result.ssi_kept_s, result.order));
   });
 
-  passed &= property("plan_complete (2): every plan is valid, its promise kept", [] {
+  passed &= property("plan_complete (2): every plan is valid, its guarantee kept", [] {
     const PlanCase plan_case = any_case_within_model();
     RC_ASSERT(!find_beyond_complete(plan_case.instance));
     const CompleteResult result = plan_complete(plan_case.instance, options_of(plan_case));

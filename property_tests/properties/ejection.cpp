@@ -1,4 +1,4 @@
-// Re-scheduling by ejection: its plans are right, its final order keeps the promise of
+// Re-scheduling by ejection: its plans are right, its final order keeps the guarantee of
 // start-safe intervals, and its trace tells what happened.
 #include "planner/prioritized/ejection.hpp"
 

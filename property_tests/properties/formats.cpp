@@ -257,11 +257,11 @@ Told any_told() {
   return told;
 }
 
-void check_solution_survives(const Told& told, SolutionFormat format) {
+void check_solution_survives(const Told& told, std::string_view format) {
   const SolutionDocument& written = told.document;
-  const auto read = parse_solution(write_solution(format, told.instance, written), kFile, told.instance);
+  const auto read = parse_solution(*write_solution(format, told.instance, written), kFile, told.instance);
   if (!read) RC_FAIL(read.error().message());
-  if (format == SolutionFormat::kCsv) {
+  if (format == "csv") {
     if (written.status == "solved") RC_ASSERT(read->solution == written.solution);
     return;
   }
@@ -281,8 +281,7 @@ void check_solution_survives(const Told& told, SolutionFormat format) {
   RC_ASSERT(read->options == written.options);
 }
 
-constexpr SolutionFormat kSolutionFormats[] = {SolutionFormat::kXml, SolutionFormat::kJson,
-                                               SolutionFormat::kCsv};
+constexpr std::string_view kSolutionFormats[] = {"xml", "json", "csv"};  // those that tell any solution
 
 // --- damaged texts ------------------------------------------------------------------
 
@@ -370,7 +369,7 @@ int main() {
 
   passed &= property("a solution reads back from each format as it was", [] {
     const Told told = any_told();
-    for (const SolutionFormat format : kSolutionFormats) check_solution_survives(told, format);
+    for (const std::string_view format : kSolutionFormats) check_solution_survives(told, format);
     RC_TAG(told.document.status);
     RC_CLASSIFY(told.document.options.has_value(), "with options");
   });
@@ -396,9 +395,9 @@ int main() {
 
   passed &= property("a damaged solution is refused in one line, or is a solution", [] {
     const Told told = any_told();
-    const SolutionFormat format = *rc::gen::elementOf(
-        std::vector<SolutionFormat>(std::begin(kSolutionFormats), std::end(kSolutionFormats)));
-    read_damaged_solution(told, *any_damage(write_solution(format, told.instance, told.document)));
+    const std::string_view format = *rc::gen::elementOf(
+        std::vector<std::string_view>(std::begin(kSolutionFormats), std::end(kSolutionFormats)));
+    read_damaged_solution(told, *any_damage(*write_solution(format, told.instance, told.document)));
   });
 
   return passed ? 0 : 1;

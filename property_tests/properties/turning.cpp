@@ -30,7 +30,7 @@ struct Planned {
   PlanResult result;
 
   Scene scene() const { return {plan_case.instance, result.solution}; }
-  ValidationOptions promises() const {
+  ValidationOptions guarantees() const {
     return {plan_case.options.ssi_s, result.order(), plan_case.options.rules};
   }
 };
@@ -110,10 +110,10 @@ int main() {
     const Planned planned = any_planned();
     RC_PRE(planned.result.status == PlanStatus::kSolved);
     const ValidationReport report =
-        validate(planned.plan_case.instance, planned.result.solution, planned.promises());
+        validate(planned.plan_case.instance, planned.result.solution, planned.guarantees());
     for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
     RC_ASSERT(report.valid());
-    RC_CLASSIFY(has_turns(planned.result.solution), "turns on the way");
+    RC_CLASSIFY(has_turns(planned.result.solution), "turns on the path");
   });
 
   passed &= property("turns are stated, each as long as its angle takes", [] {
@@ -155,15 +155,15 @@ int main() {
 
   passed &= property("the verdict stays after a quarter turn, in a mirror, and at half the speed", [] {
     const Planned planned = any_solved();
-    ValidationOptions promises = planned.promises();
+    ValidationOptions guarantees = planned.guarantees();
     const auto is_valid = [&](const Scene& scene) {
-      return validate(scene.instance, scene.solution, promises).valid();
+      return validate(scene.instance, scene.solution, guarantees).valid();
     };
     RC_ASSERT(is_valid(rotated(planned.scene())));
     RC_ASSERT(is_valid(reflected(planned.scene())));
-    promises.ssi_s *= 2;
-    promises.rules.wait_before_move_s *= 2;
-    promises.rules.inflate_time_s *= 2;
+    guarantees.ssi_s *= 2;
+    guarantees.rules.wait_before_move_s *= 2;
+    guarantees.rules.inflate_time_s *= 2;
     RC_ASSERT(is_valid(slowed(planned.scene(), 2)));
   });
 
@@ -212,8 +212,8 @@ int main() {
     RC_ASSERT(std::abs(makespan_s(one.solution) - makespan_s(other.solution)) <= kRoundingS);
   });
 
-  passed &=
-      property("stepwise, with the map's detours in the heuristic and without it robots arrive together", [] {
+  passed &= property(
+      "stepwise, with the map's distances in the heuristic and without it robots arrive together", [] {
         PlanCase plan_case = *any_case();
         plan_case.options.any_angle = false;
         plan_case.options.rescheduling = Rescheduling::kNone;
@@ -221,7 +221,7 @@ int main() {
         note_case(plan_case);
         SippOptions options{false, plan_case.options.connectedness, 1, plan_case.options.rules};
         TurningSearch with(plan_case.instance, options);
-        options.detours = false;
+        options.static_distances = false;
         TurningSearch without(plan_case.instance, options);
         const PlanResult one = plan_prioritized(plan_case.instance, plan_case.options, with);
         const PlanResult other = plan_prioritized(plan_case.instance, plan_case.options, without);
@@ -258,7 +258,7 @@ int main() {
         expected = ViolationKind::kHeading;
         break;
     }
-    RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.promises()), stop->agent, expected));
+    RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.guarantees()), stop->agent, expected));
   });
 
   return passed ? 0 : 1;
