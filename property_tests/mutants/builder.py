@@ -30,6 +30,7 @@ def build(work, mutants, compiler, jobs):
     shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(*LEFT_OUT), dirs_exist_ok=True, copy_function=copy)
     write_if_other(source / NAMES, names_header(mutants).encode())
 
+    os.environ.pop("CCACHE_BASEDIR", None)  # golden.property asks for paths in programs as they are
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     run_or_exit(["cmake", "-S", str(source), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                  f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_CXX_FLAGS=-O1 -w", "-DSIPPLAB_ASSERTIONS=ON",
