@@ -70,6 +70,7 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
   limits.max_steps = options.max_expansions;
   limits.max_memory_bytes = kMaxSearchBytes;
   limits.deadline = deadline_after(Clock::now(), options.time_limit_s);
+  limits.stop = options.stop;
   const double unit_move_s = instance.agents.empty() ? 1 : 1 / instance.agents.front().speed_cells_per_s;
   const double reach_cells = std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0);
   Lacam lacam(grid, starts, goals);

@@ -13,13 +13,6 @@ namespace {
 using NodeId = std::uint32_t;
 constexpr NodeId kNoNode = UINT32_MAX;
 
-/// Steps, as multiples of the longest path: how long a first search may take before another
-/// one with other ties begins, which then has twice as long. Times of search have a long tail:
-/// on the empty map of 32 x 32 cells with 950 robots half of the searches take four times the
-/// longest path, some a hundred times. Doubling keeps the search complete.
-constexpr std::uint64_t kPatience = 8;
-constexpr std::uint64_t kLeastPatienceSteps = 256;
-
 /// Robots on this share of the free cells, or more, do not look for free cells first. With fewer
 /// that saves a tenth to a fifth of the flowtime (empty map of 32 x 32 cells, 320 to 880 robots);
 /// with 950 robots it costs twice the time of search. They keep places at the rim, too.
@@ -59,7 +52,8 @@ std::uint64_t hash_of(const Configuration& cells) {
 }
 
 bool is_late(const LacamLimits& limits) {
-  return limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline;
+  return (limits.stop != nullptr && limits.stop->load(std::memory_order_relaxed)) ||
+         (limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline);
 }
 
 /// Unit moves from each start to its goal; none if some goal cannot be reached.
@@ -279,7 +273,7 @@ LacamResult Lacam::search(std::uint64_t seed, const LacamLimits& limits) {
     return result;
   }
   Random seeds(seed);
-  std::uint64_t patience = std::max(kLeastPatienceSteps, kPatience * longest_);
+  std::uint64_t patience = std::max(limits.least_patience_steps, limits.patience_lengths * longest_);
   for (std::size_t search = 0;; ++search) {
     if (is_crowded()) order_.late_after_steps = kCrowdLateAfterSteps[search % kCrowdLateAfterSteps.size()];
     const std::uint64_t left = limits.max_steps - result.steps_tried;

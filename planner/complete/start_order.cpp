@@ -1,6 +1,7 @@
 #include "planner/complete/start_order.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -9,6 +10,10 @@
 
 namespace sipplab {
 namespace {
+
+/// Seconds. Rounding of arrivals: a robot that comes near a start only when the guarantee ends breaks it by
+/// less.
+constexpr double kSameTimeS = 1e-9;
 
 /// `later` comes near the start of `earlier` from some time on, so it has to come later in
 /// the order.
@@ -38,7 +43,7 @@ std::vector<Crossing> crossings(const Instance& instance, const Visits& visits,
       // The robot comes from a neighbour and is too near once it is within the two radii.
       const double reach_cells = agent.radius_cells + instance.agents[owner->second].radius_cells;
       const double from_s = arrivals_s[id] - reach_cells * unit_move_s;
-      if (from_s < until_s) found.push_back({from_s, owner->second, robot});
+      if (from_s < until_s - kSameTimeS) found.push_back({from_s, owner->second, robot});
     }
   }
   std::stable_sort(found.begin(), found.end(),
@@ -93,8 +98,13 @@ StartOrder longest_kept_order(const Instance& instance, const Visits& visits,
     const std::size_t middle = possible + (impossible - possible) / 2;
     (order_of_first(middle).size() == robots ? possible : impossible) = middle;
   }
-  const double kept_s = possible == all.size() ? wanted_s : std::max(0.0, all[possible].from_s);
-  return {order_of_first(possible), kept_s};
+  if (possible == all.size()) return {order_of_first(possible), wanted_s};
+  // Those that begin only when the guarantee ends need not be kept apart.
+  const double kept_s = std::max(0.0, all[possible].from_s);
+  const auto first_after =
+      std::partition_point(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(possible),
+                           [&](const Crossing& crossing) { return crossing.from_s < kept_s - kSameTimeS; });
+  return {order_of_first(static_cast<std::size_t>(first_after - all.begin())), kept_s};
 }
 
 }  // namespace sipplab

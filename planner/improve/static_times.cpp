@@ -165,9 +165,9 @@ LowerBound lower_bound(const std::vector<double>& static_times_s) {
   return bound;
 }
 
-LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness) {
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness, std::size_t most_work) {
   const std::size_t robots = std::max<std::size_t>(instance.agents.size(), 1);
-  if (instance.map.cell_count() > kMostRecordedWork / robots) {
+  if (instance.map.cell_count() > most_work / robots) {
     std::vector<double> times_s;
     for (const Agent& agent : instance.agents) {
       times_s.push_back((any_angle ? distance(agent.start, agent.goal)
@@ -188,8 +188,7 @@ LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedne
     // Large bodies may have a path and no steps: a straight line is a bound for them, too.
     solo_cells.push_back(cells == kForever ? straight : cells);
   }
-  std::vector<double> times_s =
-      static_times_s(instance, any_angle, connectedness, solo_cells, 1, kMostRecordedWork);
+  std::vector<double> times_s = static_times_s(instance, any_angle, connectedness, solo_cells, 1, most_work);
   return lower_bound(times_s);
 }
 

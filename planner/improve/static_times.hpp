@@ -37,8 +37,9 @@ std::vector<double> static_times_s(const Instance& instance, bool any_angle, int
 
 LowerBound lower_bound(const std::vector<double>& static_times_s);
 
-/// That of an instance of which there is no plan, by the moves that are allowed. Within kMostRecordedWork;
-/// where the robots and the map are too large for it, obstacles do not count.
-LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness);
+/// That of an instance of which there is no plan, by the moves that are allowed, within `most_work`; where
+/// the robots and the map are too large for it, obstacles do not count.
+LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedness,
+                       std::size_t most_work = kMostRecordedWork);
 
 }  // namespace sipplab

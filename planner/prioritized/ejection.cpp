@@ -16,9 +16,10 @@ namespace {
 class Ejection {
  public:
   Ejection(const Instance& instance, const PlannerOptions& options, SingleAgentPlanner& planner,
-           Clock::time_point begin)
+           std::uint64_t most_ejections, Clock::time_point begin)
       : limits_(search_limits(options, begin)),
         max_restarts_(options.max_restarts),
+        most_ejections_(most_ejections),
         plan_(instance, options.ssi_s, planner),
         sketch_(instance, options.ssi_s, planner),
         random_(options.seed),
@@ -117,7 +118,7 @@ class Ejection {
     bool may_go_on = true;
     for (const AgentIndex robot : ejected) {
       ++ejected_by_[agent][robot];
-      may_go_on &= ++times_ejected_[robot] < kMostEjections;
+      may_go_on &= ++times_ejected_[robot] < most_ejections_;
     }
     result_.trace.back().ejected = std::move(ejected);
     return may_go_on;
@@ -137,6 +138,7 @@ class Ejection {
 
   SearchLimits limits_;
   std::uint64_t max_restarts_;
+  std::uint64_t most_ejections_;
   PartialPlan plan_;
   PartialPlan sketch_;  ///< empty except while a path is forced
   Random random_;
@@ -150,9 +152,9 @@ class Ejection {
 }  // namespace
 
 PlanResult plan_by_ejection(const Instance& instance, const PlannerOptions& options,
-                            SingleAgentPlanner& planner) {
+                            SingleAgentPlanner& planner, std::uint64_t most_ejections) {
   const Clock::time_point begin = Clock::now();
-  PlanResult result = Ejection(instance, options, planner, begin).run();
+  PlanResult result = Ejection(instance, options, planner, most_ejections, begin).run();
   result.planning_seconds = seconds_since(begin);
   return result;
 }

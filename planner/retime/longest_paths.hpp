@@ -35,7 +35,8 @@ struct LeastTimes {
 ///     using Time = ...                              with +, < and ==; Time{} is 0
 ///     std::size_t size() const
 ///     Time earliest(EventId) const                  the least time of an event that waits for nothing
-///     std::optional<Lag<Time>> lag(EventId, std::uint32_t n) const   the n-th constraint; none: no more
+///     std::optional<Lag<Time>> lag(EventId, std::uint32_t n) const   the n-th constraint, which is not about
+///                                                                    the event itself; none: no more
 ///     bool is_later(Time a, Time b) const           by more than rounding explains
 template <class Graph>
 class LongestPaths {

@@ -24,11 +24,6 @@ constexpr std::uint64_t kEscalationRestarts = 0;
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
 /// Steps of LaCAM for a first plan. (Trials: some hundreds, however many robots.)
 constexpr std::uint64_t kFirstPlanSteps = 10'000;
-/// Share of the time limit for that plan.
-constexpr double kShareOfFirstPlan = 0.1;
-/// Share of the time limit in which a better plan must have been found. The rest is for
-/// improvement, which a plan of LaCAM needs more than any other.
-constexpr double kShareBeforeImprovement = 0.3;
 
 class BestPlan {
  public:

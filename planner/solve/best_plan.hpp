@@ -24,4 +24,10 @@ SolveResult best_plan(const Instance& instance, const PlannerOptions& options);
 
 inline constexpr double kLongerSsiS[] = {9, 15};
 
+/// Share of the time limit for the first plan.
+inline constexpr double kShareOfFirstPlan = 0.1;
+/// Share of the time limit in which a better plan must have been found. The rest is for
+/// improvement, which a plan of LaCAM needs more than any other.
+inline constexpr double kShareBeforeImprovement = 0.3;
+
 }  // namespace sipplab

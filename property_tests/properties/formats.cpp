@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <pugixml.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -283,6 +285,151 @@ void check_solution_survives(const Told& told, std::string_view format) {
 
 constexpr std::string_view kSolutionFormats[] = {"xml", "json", "csv"};  // those that tell any solution
 
+// --- what is told and not read back ---------------------------------------------------
+
+double any_number() { return *rc::gen::inRange(0, 4000) / 8.0; }
+
+PlanCost any_cost() { return {any_number(), any_number()}; }
+
+/// A plan with everything that JSON tells beside it.
+Told any_story() {
+  Told told = any_told();
+  SolutionDocument& document = told.document;
+  for (int i = *rc::gen::inRange(0, 3); i > 0; --i) {
+    document.ejections.push_back(
+        {*rc::gen::inRange<AgentIndex>(0, 9),
+         *rc::gen::container<std::vector<AgentIndex>>(rc::gen::inRange<AgentIndex>(0, 9))});
+  }
+  for (int i = *rc::gen::inRange(0, 3); i > 0; --i) {
+    BestStep& step = document.steps.emplace_back();
+    step.kind = *rc::gen::element(BestStep::Kind::kMethod, BestStep::Kind::kEscalation,
+                                  BestStep::Kind::kEjection, BestStep::Kind::kFallback);
+    step.ssi_s = *any_of({0.0, 2.5, kInfiniteSsi});
+    step.status = *rc::gen::element(PlanStatus::kSolved, PlanStatus::kFailed, PlanStatus::kLimit);
+    step.tries = *rc::gen::inRange<std::size_t>(0, 99);
+    step.seconds = any_number();
+    step.ended_s = step.seconds + any_number();
+    if (step.status == PlanStatus::kSolved) step.cost = any_cost();
+  }
+  if (*rc::gen::arbitrary<bool>()) {
+    ImprovementLog& log = document.improvement.emplace();
+    for (int i = *rc::gen::inRange(1, 4); i > 0; --i) {
+      log.curve.push_back({any_number(), *rc::gen::inRange<std::uint64_t>(0, 999), any_cost()});
+    }
+    log.bound = {any_number(), any_number()};
+    log.iterations = *rc::gen::inRange<std::uint64_t>(0, 999);
+    log.improvements = *rc::gen::inRange<std::uint64_t>(0, 999);
+    log.keeps_guarantee = *rc::gen::arbitrary<bool>();
+    log.objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20});
+  }
+  return told;
+}
+
+using Json = nlohmann::json;
+
+bool is_cost(const Json& json, const PlanCost& cost) {
+  return json == Json{{"flowtime", cost.flowtime_s}, {"makespan", cost.makespan_s}};
+}
+
+double share_above(double cost, double bound) { return cost > bound ? (cost - bound) / cost : 0; }
+
+void json_tells_the_story(const Told& told) {
+  const SolutionDocument& document = told.document;
+  const Json json = Json::parse(solution_to_json(told.instance, document));
+  RC_ASSERT(json.at("robots") == told.instance.agents.size());
+  const Json& trajectories = json.at("trajectories");
+  RC_ASSERT(trajectories.size() == document.solution.trajectories.size());
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    const Agent& agent = told.instance.agents[i];
+    const Trajectory& trajectory = document.solution.trajectories[i];
+    RC_ASSERT(trajectories[i].at("radius") == agent.radius_cells);
+    RC_ASSERT(trajectories[i].at("speed") == agent.speed_cells_per_s);
+    RC_ASSERT(trajectories[i].at("start") == (Json{trajectory.start.x, trajectory.start.y}));
+    RC_ASSERT(trajectories[i].at("goal") == (Json{agent.goal.x, agent.goal.y}));
+    const Json& id = trajectories[i].at("id");
+    RC_ASSERT((id.is_string() ? id.get<std::string>() : id.dump()) == agent.id);
+  }
+  const Json ejections = json.value("ejections", Json::array());
+  RC_ASSERT(ejections.size() == document.ejections.size());
+  for (std::size_t i = 0; i < ejections.size(); ++i) {
+    RC_ASSERT(ejections[i].at("failed") == document.ejections[i].failed);
+    RC_ASSERT(ejections[i].at("ejected") == Json(document.ejections[i].ejected));
+  }
+  const Json steps = json.value("steps", Json::array());
+  RC_ASSERT(steps.size() == document.steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const BestStep& step = document.steps[i];
+    RC_ASSERT(steps[i].at("kind") == std::string(name(step.kind)));
+    RC_ASSERT(steps[i].at("status") == std::string(name(step.status)));
+    RC_ASSERT(steps[i].at("ssi") == (step.ssi_s == kInfiniteSsi ? Json("inf") : Json(step.ssi_s)));
+    RC_ASSERT(steps[i].at("tries") == step.tries);
+    RC_ASSERT(steps[i].at("seconds") == step.seconds);
+    RC_ASSERT(steps[i].at("ended") == step.ended_s);
+    RC_ASSERT(steps[i].at("cost").is_null() == !step.cost);
+    if (step.cost) RC_ASSERT(is_cost(steps[i].at("cost"), *step.cost));
+  }
+  RC_ASSERT(json.contains("improvement") == document.improvement.has_value());
+  if (!document.improvement) return;
+  const Json& improvement = json.at("improvement");
+  const ImprovementLog& log = *document.improvement;
+  RC_ASSERT(improvement.at("iterations") == log.iterations);
+  RC_ASSERT(improvement.at("improvements") == log.improvements);
+  RC_ASSERT(improvement.at("ssi_promise") == log.keeps_guarantee);
+  RC_ASSERT(improvement.at("objective") == format_objective(log.objective));
+  RC_ASSERT(is_cost(improvement.at("lower_bound"), {log.bound.flowtime_s, log.bound.makespan_s}));
+  const PlanCost& last = log.curve.back().cost;
+  RC_ASSERT(is_cost(improvement.at("gap"), {share_above(last.flowtime_s, log.bound.flowtime_s),
+                                            share_above(last.makespan_s, log.bound.makespan_s)}));
+  RC_ASSERT(improvement.at("curve").size() == log.curve.size());
+  for (std::size_t i = 0; i < log.curve.size(); ++i) {
+    Json point = improvement.at("curve")[i];
+    RC_ASSERT(point.at("seconds") == log.curve[i].seconds);
+    RC_ASSERT(point.at("iteration") == log.curve[i].iteration);
+    point.erase("seconds");
+    point.erase("iteration");
+    RC_ASSERT(is_cost(point, log.curve[i].cost));
+  }
+}
+
+/// The log in the style of AA-SIPP(m): of each robot what it is, and sections that follow each other.
+void log_tells_of_each_robot(const Told& told) {
+  const std::vector<Trajectory>& trajectories = told.document.solution.trajectories;
+  pugi::xml_document document;
+  RC_ASSERT(static_cast<bool>(document.load_string(solution_to_xml(told.instance, told.document).c_str())));
+  const pugi::xml_node log = document.child("root").child("log");
+  const bool with_headings = has_turns(told.document.solution);
+  std::size_t position = 0;
+  for (const pugi::xml_node node : log.children("agent")) {
+    const Agent& agent = told.instance.agents[position];
+    const Trajectory& trajectory = trajectories[position++];
+    const auto number = [&](pugi::xml_node of, const char* name) { return of.attribute(name).as_double(-1); };
+    RC_ASSERT(number(node, "size") == agent.radius_cells);
+    RC_ASSERT(number(node, "movespeed") == agent.speed_cells_per_s);
+    RC_ASSERT(number(node, "rotationspeed") == agent.rotation_speed);
+    RC_ASSERT(node.attribute("goal.x").as_int() == agent.goal.x);
+    RC_ASSERT(node.attribute("goal.y").as_int() == agent.goal.y);
+    RC_ASSERT(static_cast<bool>(node.attribute("start.heading")) == with_headings);
+    RC_ASSERT(number(node.child("path"), "duration") == trajectory.arrival_s());
+    std::optional<double> facing_deg;
+    for (const pugi::xml_node section : node.child("path").children("section")) {
+      if (!with_headings) continue;
+      const double from_deg = number(section, "start.heading");
+      const double to_deg = number(section, "goal.heading");
+      const int x = section.attribute("goal.x").as_int() - section.attribute("start.x").as_int();
+      const int y = section.attribute("goal.y").as_int() - section.attribute("start.y").as_int();
+      if (x != 0 || y != 0) {
+        const double direction_deg = std::atan2(-y, x) * (180 / std::acos(-1.0));
+        RC_ASSERT(std::abs(std::remainder(from_deg - direction_deg, 360)) < 1e-9);
+        RC_ASSERT(from_deg == to_deg);
+      } else if (facing_deg) {
+        RC_ASSERT(from_deg == *facing_deg);
+      }
+      facing_deg = to_deg;
+    }
+  }
+  RC_ASSERT(position == trajectories.size());
+}
+
 // --- damaged texts ------------------------------------------------------------------
 
 /// One line that begins with the file, says something, and names a line of the text if it
@@ -373,6 +520,12 @@ int main() {
     RC_TAG(told.document.status);
     RC_CLASSIFY(told.document.options.has_value(), "with options");
   });
+
+  passed &= property("JSON tells of robots, ejections, steps and improvement what they are",
+                     [] { json_tells_the_story(any_story()); });
+
+  passed &= property("the log in XML tells of each robot what it is, where it faces and when it arrives",
+                     [] { log_tells_of_each_robot(any_told()); });
 
   passed &= property("a damaged XML instance is refused in one line, or is an instance",
                      [] { read_damaged_xml(*any_damage(write_instance_xml(*any_instance()))); });

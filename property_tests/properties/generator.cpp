@@ -3,10 +3,13 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "planner/instance/reachability.hpp"
 #include "property_tests/support/property.hpp"
@@ -35,6 +38,36 @@ MapSpec any_random_map() {
   spec.height = *rc::gen::inRange(1, 20);
   spec.density = *rc::gen::inRange(0, 80) / 100.0;
   return spec;
+}
+
+/// The cells of the largest part of the map that four neighbours join; of equally large ones the one that
+/// comes first, row by row.
+std::set<Cell> largest_part(const GridMap& map) {
+  std::set<Cell> seen;
+  std::set<Cell> largest;
+  for (std::size_t i = 0; i < map.cell_count(); ++i) {
+    if (map.is_blocked(map.cell(i)) || seen.count(map.cell(i)) > 0) continue;
+    std::set<Cell> part;
+    std::vector<Cell> open = {map.cell(i)};
+    while (!open.empty()) {
+      const Cell here = open.back();
+      open.pop_back();
+      if (!map.contains(here) || map.is_blocked(here) || !part.insert(here).second) continue;
+      for (const Cell by : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
+        open.push_back({here.x + by.x, here.y + by.y});
+      }
+    }
+    seen.insert(part.begin(), part.end());
+    if (part.size() > largest.size()) largest = part;
+  }
+  return largest;
+}
+
+/// Cells from a place to the nearest place on the map, its border included.
+double cells_from(const GridMap& map, Cell place) {
+  const double x = std::max({0.0, -0.5 - place.x, place.x - (map.width() - 0.5)});
+  const double y = std::max({0.0, -0.5 - place.y, place.y - (map.height() - 0.5)});
+  return std::hypot(x, y);
 }
 
 }  // namespace
@@ -95,6 +128,155 @@ int main() {
       hashes.insert(content_hash(*generate_instance(spec, other)));
     }
     RC_ASSERT(hashes.size() == kOthers + 1);
+  });
+
+  passed &= property("robots are on the first of the largest parts of the map, at any speed and heading", [] {
+    GeneratorOptions options = any_options(8);
+    options.radii_cells = {*rc::gen::element(0.5, 0.3)};
+    MapSpec spec = any_random_map();
+    spec.density = *rc::gen::inRange(30, 75) / 100.0;
+    const auto instance = generate_instance(spec, options);
+    RC_PRE(static_cast<bool>(instance));
+    const std::set<Cell> part = largest_part(instance->map);
+    RC_ASSERT(options.agents <= part.size());
+    for (const Agent& agent : instance->agents) {
+      RC_ASSERT(part.count(agent.start) > 0);
+      RC_ASSERT(part.count(agent.goal) > 0);
+    }
+    // What else is drawn leaves places as they are.
+    GeneratorOptions others = options;
+    others.speeds_cells_per_s = {0.5};
+    others.headings = !options.headings;
+    others.obstacles = 3 - options.obstacles;
+    const auto same = generate_instance(spec, others);
+    RC_ASSERT(static_cast<bool>(same));
+    for (std::size_t i = 0; i < instance->agents.size(); ++i) {
+      RC_ASSERT(same->agents[i].start == instance->agents[i].start);
+      RC_ASSERT(same->agents[i].goal == instance->agents[i].goal);
+      RC_ASSERT(same->agents[i].radius_cells == instance->agents[i].radius_cells);
+      RC_ASSERT(same->agents[i].speed_cells_per_s == 0.5);
+    }
+  });
+
+  passed &= property("so many robots as there are cells fit", [] {
+    GeneratorOptions options = any_options(0);
+    options.radii_cells = {*rc::gen::element(0.5, 0.3)};
+    const auto map = make_map(any_random_map(), options.seed);
+    RC_ASSERT(static_cast<bool>(map));
+    options.agents = largest_part(*map).size();
+    RC_ASSERT(static_cast<bool>(generate_instance(*map, options)));
+    ++options.agents;
+    RC_ASSERT(!generate_instance(*map, options));
+  });
+
+  passed &= property("where chance decides how many fit, it is tried again", [] {
+    // Of nine cells where such a body can stand four are far enough apart; one shuffle in five finds them.
+    GeneratorOptions options = any_options(0);
+    options.radii_cells = {0.75};
+    options.agents = 4;
+    const auto instance = generate_instance(GridMap(5, 5), options);
+    RC_ASSERT(static_cast<bool>(instance));
+    RC_ASSERT(!find_error(*instance));
+    ++options.agents;
+    RC_ASSERT(!generate_instance(GridMap(5, 5), options));
+  });
+
+  passed &= property("one large robot finds its place among small ones", [] {
+    GeneratorOptions options = any_options(0);
+    options.radii_cells = {1.5, 0.5};
+    options.agents = *rc::gen::inRange<std::size_t>(2, 7);
+    const GridMap map(5, 3);
+    const auto instance = generate_instance(map, options);
+    // A lone large one leaves six cells, and there it is always three high.
+    GridMap wide(64, 8);
+    const auto drawn = generate_instance(wide, options);
+    RC_PRE(static_cast<bool>(drawn));
+    const auto large = std::count_if(drawn->agents.begin(), drawn->agents.end(),
+                                     [](const Agent& agent) { return agent.radius_cells == 1.5; });
+    RC_PRE(large == 1);
+    RC_ASSERT(static_cast<bool>(instance));
+    RC_ASSERT(!find_error(*instance));
+  });
+
+  passed &= property("sizes, speeds and headings are drawn from all that is asked for, equally likely", [] {
+    GeneratorOptions options = any_options(0);
+    options.agents = 300;
+    options.radii_cells = {0.1, 0.2, 0.3};
+    options.speeds_cells_per_s = {1, 2, 3};
+    options.rotation_speeds = {0.5, 1, 2};
+    options.headings = true;
+    const auto instance = generate_instance(GridMap(24, 24), options);
+    RC_ASSERT(static_cast<bool>(instance));
+    std::map<double, int> radii;
+    std::map<double, int> speeds;
+    std::map<double, int> rotations;
+    int with_goal_heading = 0;
+    for (const Agent& agent : instance->agents) {
+      ++radii[agent.radius_cells];
+      ++speeds[agent.speed_cells_per_s];
+      ++rotations[agent.rotation_speed];
+      with_goal_heading += agent.goal_heading_deg.has_value();
+      for (const double heading_deg : {agent.start_heading_deg, agent.goal_heading_deg.value_or(0)}) {
+        RC_ASSERT(std::floor(heading_deg) == heading_deg);
+        RC_ASSERT(heading_deg >= 0 && heading_deg < 360);
+      }
+    }
+    for (const auto& counts : {radii, speeds, rotations}) {
+      RC_ASSERT(counts.size() == 3u);
+      for (const auto& [value, count] : counts) RC_ASSERT(count > 50);  // 100 are expected, 8 more or less
+    }
+    RC_ASSERT(with_goal_heading > 90 && with_goal_heading < 210);
+  });
+
+  passed &= property("obstacles come from outside, cross at the speeds asked for, and leave for good", [] {
+    GeneratorOptions options = any_options(3);
+    options.obstacles = 4;
+    options.speeds_cells_per_s = *rc::gen::element(std::vector<double>{0.5, 2, 3}, std::vector<double>{0.25});
+    const auto instance = generate_instance(any_random_map(), options);
+    RC_PRE(static_cast<bool>(instance));
+    const double widest = *std::max_element(options.radii_cells.begin(), options.radii_cells.end());
+    for (const DynamicObstacle& obstacle : instance->obstacles) {
+      const Trajectory& trajectory = obstacle.trajectory;
+      RC_ASSERT(std::count(options.radii_cells.begin(), options.radii_cells.end(), obstacle.radius_cells) >
+                0);
+      for (const Cell place : {trajectory.start, trajectory.end()}) {
+        RC_ASSERT(cells_from(instance->map, place) >= obstacle.radius_cells + widest);
+      }
+      RC_ASSERT(trajectory.motions.front().is_wait());
+      const double wait_s = trajectory.motions.front().end_s;
+      RC_ASSERT(wait_s >= 1 && wait_s <= 16 && std::floor(wait_s) == wait_s);
+      bool crosses = false;
+      std::set<double> speeds;
+      for (std::size_t i = 1; i < trajectory.motions.size(); ++i) {
+        const TimedMotion& motion = trajectory.motions[i];
+        crosses = crosses || instance->map.contains(motion.to);
+        const double speed = distance(motion.from, motion.to) / (motion.end_s - motion.begin_s);
+        speeds.insert(std::round(speed * 1e6) / 1e6);
+      }
+      RC_ASSERT(crosses);
+      RC_ASSERT(speeds.size() == 1u);
+      RC_ASSERT(std::count(options.speeds_cells_per_s.begin(), options.speeds_cells_per_s.end(),
+                           *speeds.begin()) > 0);
+    }
+  });
+
+  passed &= property("a map's text gives its size and share, and what is none is one line", [] {
+    const int width = *rc::gen::inRange(1, 60);
+    const int height = *rc::gen::inRange(1, 60);
+    const int hundredths = *rc::gen::element(0, 20, 99, 100, -1, 101, 55);
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    const auto empty = parse_map_spec("empty:" + size);
+    RC_ASSERT(empty && empty->kind == MapSpec::Kind::kEmpty);
+    RC_ASSERT(empty->width == width && empty->height == height);
+    const std::string density = std::to_string(hundredths / 100.0);
+    const auto random = parse_map_spec("random:" + size + ":" + density);
+    RC_ASSERT(random.has_value() == (hundredths >= 0 && hundredths < 100));
+    if (!random) {
+      RC_ASSERT(random.error().find('\n') == std::string::npos);
+      return;
+    }
+    RC_ASSERT(random->width == width && random->height == height);
+    RC_ASSERT(std::abs(random->density - hundredths / 100.0) < 1e-6);
   });
 
   return passed ? 0 : 1;

@@ -146,6 +146,65 @@ int main() {
     RC_ASSERT(plan.solution() == better);
   });
 
+  passed &= property("by steps, no attempt that would be better is given up for its bounds", [] {
+    Planned planned{*any_case(), {}};
+    PlannerOptions& options = planned.plan_case.options;
+    options.any_angle = false;
+    options.weight = 1;
+    options.rescheduling = Rescheduling::kEjection;
+    options.max_restarts = 40;
+    const Instance& instance = planned.plan_case.instance;
+    note_case(planned.plan_case);
+    planned.result = plan(instance, options);
+    RC_PRE(planned.result.status == PlanStatus::kSolved);
+    RC_PRE(instance.agents.size() >= 2u);
+    const std::unique_ptr<SingleAgentPlanner> planner = single_agent_planner(instance, options);
+    PartialPlan plan(instance, 0, *planner);
+    const Solution& given = planned.result.solution;
+    for (const AgentIndex agent : planned.result.order()) plan.insert(agent, given.trajectories[agent]);
+    const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1},
+                                                  Objective{1, 20}, Objective{3, 1});
+    const RuleRoulette roulette;
+    std::vector<double> solo_cells;
+    for (const Agent& agent : instance.agents) {
+      solo_cells.push_back(distance(agent.start, agent.goal));  // not used over a neighbourhood
+    }
+    const std::vector<double> times_s = static_times_s(instance, false, options.connectedness, solo_cells);
+    const PlanCost cost{flowtime_s(given), makespan_s(given)};
+    const Round round{instance, objective, roulette, times_s, given.trajectories, cost, {}};
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    constexpr std::uint64_t kAttempts = 6;
+    for (std::uint64_t i = 0; i < kAttempts; ++i) {
+      const Attempt attempt = try_neighbourhood(round, plan, Random(seed + i));
+      RC_ASSERT(plan.solution() == given);
+      // The same robots in the same sequence, without bounds.
+      std::vector<PartialPlan::Taken> taken;
+      for (const AgentIndex robot : attempt.robots) taken.push_back(plan.take_out(robot));
+      std::vector<AgentIndex> entered;
+      for (const AgentIndex robot : attempt.robots) {
+        SearchStatistics work;
+        auto found = plan.find(robot, {}, work);
+        if (!found) break;
+        plan.insert(robot, std::move(*found));
+        entered.push_back(robot);
+      }
+      PlanCost now;
+      if (entered.size() == attempt.robots.size()) now = cost_of(plan.solution());
+      const bool is_better_unbound =
+          entered.size() == attempt.robots.size() && sipplab::is_better(objective, now, cost);
+      for (const AgentIndex robot : entered) plan.take_out(robot);
+      for (PartialPlan::Taken& one : taken) plan.put_back(std::move(one));
+      RC_CLASSIFY(is_better_unbound, "better");
+      // What gains no more than rounding may go either way.
+      const double value = objective.of(cost.flowtime_s, cost.makespan_s);
+      const double gain = value - objective.of(now.flowtime_s, now.makespan_s);
+      if (is_better_unbound && gain > kRoundingCells) RC_ASSERT(attempt.is_better);
+      if (!attempt.is_better) continue;
+      RC_ASSERT(is_better_unbound);
+      RC_ASSERT(std::abs(attempt.gain - gain) <= kRoundingCells * (1 + value));
+    }
+  });
+
   passed &= property("improve (2)(3): valid, and it keeps the guarantee where it was kept", [] {
     const Planned planned = any_planned();
     const PlannerOptions options = any_improve_options(planned.plan_case.options);

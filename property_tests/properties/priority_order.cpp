@@ -5,8 +5,11 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "planner/solve/plan.hpp"
 #include "property_tests/support/generators.hpp"
@@ -41,6 +44,20 @@ void first_order_goes_by_time(InitialOrder kind) {
       RC_ASSERT((first_s < second_s) == (kind == InitialOrder::kShortestFirst));
     }
   }
+}
+
+/// The same for a robot with a heading, at any angle: it turns to where its goal lies, and ends with its goal
+/// heading.
+double least_turning_time_s(const Agent& agent, const MotionRules& rules) {
+  const auto turn_s = [&](double from_deg, double to_deg) {
+    return std::abs(std::remainder(from_deg - to_deg, 360)) / (180 * agent.rotation_speed);
+  };
+  const double last_s = agent.goal_heading_deg ? turn_s(agent.start_heading_deg, *agent.goal_heading_deg) : 0;
+  if (agent.start == agent.goal) return last_s;
+  const double towards_deg =
+      std::atan2(agent.start.y - agent.goal.y, agent.goal.x - agent.start.x) * (180 / std::acos(-1.0));
+  return distance(agent.start, agent.goal) / agent.speed_cells_per_s + rules.wait_before_move_s +
+         std::max(last_s, turn_s(agent.start_heading_deg, towards_deg));
 }
 
 /// Uniform over first .. last, at every size.
@@ -94,6 +111,44 @@ int main() {
 
   passed &= property("longest first goes by least time, ties by input position",
                      [] { first_order_goes_by_time(InitialOrder::kLongestFirst); });
+
+  passed &= property("shortest first counts turns and delays", [] {
+    constexpr double kRoundingS = 1e-9;
+    PlanCase plan_case = *any_turning_case();
+    plan_case.options.order = InitialOrder::kShortestFirst;
+    plan_case.options.rescheduling = Rescheduling::kNone;
+    plan_case.options.any_angle = true;
+    plan_case.options.max_expansions = 1;  // the first order is all that counts
+    note_case(plan_case);
+    const PriorityOrder order = plan(plan_case.instance, plan_case.options).trace.front().order;
+    for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+      RC_ASSERT(least_turning_time_s(plan_case.instance.agents[order[i]], plan_case.options.rules) <=
+                least_turning_time_s(plan_case.instance.agents[order[i + 1]], plan_case.options.rules) +
+                    kRoundingS);
+    }
+  });
+
+  passed &= property("initial_order: by length, ties by input position, however many robots there are", [] {
+    const int robots = any_between(0, 90);
+    std::vector<double> lengths_s;
+    for (int i = 0; i < robots; ++i) lengths_s.push_back(any_between(0, 3) / 8.0);
+    for (const InitialOrder kind :
+         {InitialOrder::kFifo, InitialOrder::kShortestFirst, InitialOrder::kLongestFirst}) {
+      std::vector<std::pair<double, AgentIndex>> sorted;
+      for (AgentIndex i = 0; i < lengths_s.size(); ++i) {
+        const double key = kind == InitialOrder::kFifo            ? 0
+                           : kind == InitialOrder::kShortestFirst ? lengths_s[i]
+                                                                  : -lengths_s[i];
+        sorted.emplace_back(key, i);
+      }
+      std::sort(sorted.begin(), sorted.end());
+      Random random(0);
+      const PriorityOrder order = initial_order(kind, lengths_s, random);
+      RC_ASSERT(order.size() == sorted.size());
+      for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(order[i] == sorted[i].second);
+    }
+    RC_CLASSIFY(robots > 16, "more than 16 robots");
+  });
 
   passed &= property("a budget of just the expansions that are needed is enough", [] {
     PlanCase plan_case = *any_case();

@@ -15,6 +15,7 @@
 #include "planner/grid/line_of_sight.hpp"
 #include "property_tests/support/distance_oracle.hpp"
 #include "property_tests/support/encounters.hpp"
+#include "property_tests/support/generators.hpp"
 #include "property_tests/support/plain_twins.hpp"
 #include "property_tests/support/property.hpp"
 
@@ -93,12 +94,20 @@ rc::Gen<std::uint32_t> any_walks_to_remove() {
   return rc::gen::oneOf(rc::gen::just(std::uint32_t{0}), rc::gen::inRange<std::uint32_t>(0, 64));
 }
 
+rc::Gen<Guard> any_guard() {
+  return rc::gen::build<Guard>(rc::gen::set(&Guard::place, any_cell(kWidth, kHeight)),
+                               rc::gen::set(&Guard::begin_s, any_of({0.0, 0.0, 1.5})),
+                               rc::gen::set(&Guard::rest_s, any_of({5.0, 1.0, 2.5, kForever})),
+                               rc::gen::set(&Guard::radius, any_radius()),
+                               rc::gen::set(&Guard::removed, rc::gen::arbitrary<bool>()));
+}
+
+std::ostream& operator<<(std::ostream& out, const Guard& guard) {
+  return out << (guard.removed ? "removed " : "") << "guard (" << guard.place.x << ", " << guard.place.y
+             << ") radius " << guard.radius << " from " << guard.begin_s << " for " << guard.rest_s;
+}
+
 rc::Gen<Traffic> any_traffic() {
-  const auto any_guard = rc::gen::build<Guard>(
-      rc::gen::set(&Guard::place, any_cell(kWidth, kHeight)),
-      rc::gen::set(&Guard::begin_s, any_of({0.0, 0.0, 1.5})),
-      rc::gen::set(&Guard::rest_s, any_of({5.0, 1.0, 2.5, kForever})),
-      rc::gen::set(&Guard::radius, any_radius()), rc::gen::set(&Guard::removed, rc::gen::arbitrary<bool>()));
   const auto any_askers = rc::gen::build<Askers>(
       rc::gen::set(&Askers::max_radius_cells, any_of({1.5, 0.5, 0.25})),
       // Slower than the robots that ask, and so fast that slow ones are as good as at rest.
@@ -106,7 +115,7 @@ rc::Gen<Traffic> any_traffic() {
       rc::gen::set(&Askers::time_margin_s, any_of({0.0, 0.0, 0.0, 0.5})));
   return rc::gen::build<Traffic>(rc::gen::set(&Traffic::askers, any_askers),
                                  rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
-                                 rc::gen::set(&Traffic::guards, up_to(4, any_guard)),
+                                 rc::gen::set(&Traffic::guards, up_to(4, any_guard())),
                                  rc::gen::set(&Traffic::walks, up_to(6, any_walk(kWidth, kHeight))),
                                  rc::gen::set(&Traffic::removed_walks, any_walks_to_remove()));
 }
@@ -160,6 +169,17 @@ class Filled {
     ask_everywhere(askers_.max_radius_cells);
     // Once more after a removal.
     if (!traffic.walks.empty()) add(traffic.walks.front());
+  }
+
+  /// Adds a disk and, if it is to be removed, takes it out after `meanwhile`.
+  template <class Meanwhile>
+  void add_and_remove(const Guard& guard, Meanwhile&& meanwhile) {
+    const ReservationTable::DiskId id = table_.add(guard.disk());
+    twin_.disks.push_back(guard.disk());
+    meanwhile();
+    if (!guard.removed) return;
+    table_.remove(id);
+    twin_.disks.pop_back();
   }
 
   void clear() {
@@ -322,6 +342,43 @@ int main() {
     }
     RC_CLASSIFY(found >= 10, "ten departures or more");
     RC_CLASSIFY(given_up >= 10, "ten times none or more");
+  });
+
+  passed &=
+      property("safe_intervals: robots of more sizes than are kept up to date, one after the other", [] {
+        Filled filled(*any_traffic());
+        const std::vector<double> radii = {0.125, 0.25, 0.3, 0.4, 0.5, 0.625, 0.75};
+        const auto ask = [&](double radius) {
+          radius = std::min(radius, filled.largest_radius());
+          const std::size_t index = *rc::gen::inRange<std::size_t>(0, filled.map().cell_count());
+          const Cell cell = filled.map().cell(index);
+          if (filled.map().is_blocked(cell)) return;
+          const auto safe = filled.table().safe_intervals(cell, radius);
+          RC_LOG() << "cell (" << cell.x << ", " << cell.y << ") radius " << radius << std::endl;
+          RC_ASSERT(std::vector<SafeInterval>(safe.begin(), safe.end()) ==
+                    filled.twin().safe_intervals(cell, radius));
+        };
+        for (const Guard& guard : *up_to(6, any_guard())) {
+          for (int i = 0; i < 12; ++i) ask(*rc::gen::elementOf(radii));
+          filled.add_and_remove(guard, [&] { ask(*rc::gen::elementOf(radii)); });
+        }
+        for (const double radius : radii) {
+          for (int i = 0; i < 6; ++i) ask(radius);
+        }
+      });
+
+  passed &= property("askers_of: the widest, the fastest, and what the rules add", [] {
+    PlanCase plan_case = *any_turning_case();
+    const Askers askers = askers_of(plan_case.instance, plan_case.options.rules);
+    double widest = 0;
+    double fastest = plan_case.instance.agents.empty() ? 1 : 0;
+    for (const Agent& agent : plan_case.instance.agents) {
+      widest = std::max(widest, agent.radius_cells);
+      fastest = std::max(fastest, agent.speed_cells_per_s);
+    }
+    RC_ASSERT(askers.max_radius_cells == widest + plan_case.options.rules.inflate_distance_cells);
+    RC_ASSERT(askers.max_speed_cells_per_s == fastest);
+    RC_ASSERT(askers.time_margin_s == plan_case.options.rules.inflate_time_s);
   });
 
   passed &= property("clear: nothing of the time before is remembered", [] {

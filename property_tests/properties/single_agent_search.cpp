@@ -2,6 +2,8 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -270,6 +272,7 @@ std::optional<double> gains_by_elastic(const World& world, SippOptions options) 
   if (!found.trajectory) return std::nullopt;
   keeps_clear(instance, world, *tight.trajectory);
   goes_each_line_at_once(*tight.trajectory);
+  goes_each_line_at_once(*found.trajectory);
   const double gain_s = found.trajectory->arrival_s() - tight.trajectory->arrival_s();
   RC_ASSERT(gain_s >= 0);
   return gain_s;
@@ -295,6 +298,43 @@ int leaves_each_stop_early(const Instance& instance, const Trajectory& trajector
     reached_s = motion.end_s;
   }
   return waits;
+}
+
+/// How many stops could be left out, as far as the reservations go: the straight move from the stop before to
+/// the one after is clear and safe, and arrives no later.
+int stops_to_leave_out(const Instance& instance, const World& world, const Trajectory& trajectory) {
+  struct Stop {
+    Cell cell;
+    double arrival_s;
+  };
+  const PlainTable table{disks_of(instance)};
+  const Agent& agent = instance.agents[0];
+  std::vector<Stop> stops = {{trajectory.start, 0}};
+  for (const TimedMotion& motion : trajectory.motions) {
+    if (!motion.is_wait()) stops.push_back({motion.to, motion.end_s});
+  }
+  const auto interval_at = [&](const Stop& stop) {
+    for (const SafeInterval& interval : table.safe_intervals(stop.cell, agent.radius_cells)) {
+      if (interval.contains(stop.arrival_s)) return interval;
+    }
+    return SafeInterval{kForever, kForever};
+  };
+  int found = 0;
+  for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
+    const Stop& before = stops[i - 1];
+    const Stop& after = stops[i + 1];
+    if (before.cell == after.cell || !exactly_clear(instance.map, world.radius, before.cell, after.cell))
+      continue;
+    const SafeInterval from = interval_at(before);
+    const SafeInterval to = interval_at(after);
+    const Move move(Displacement(centre(before.cell), centre(after.cell)), agent.speed_cells_per_s);
+    const double from_s = std::max(before.arrival_s, to.begin_s - move.duration);
+    const double until_s = std::min(from.end_s, to.end_s - move.duration);
+    if (from_s > until_s) continue;
+    const double departs_s = table.earliest_departure(move, agent.radius_cells, from_s, until_s);
+    found += departs_s <= until_s && departs_s + move.duration <= after.arrival_s - kRoundingS;
+  }
+  return found;
 }
 
 /// How many expansions the search takes without a limit.
@@ -391,21 +431,31 @@ int main() {
     RC_CLASSIFY(gains > 0, "some earlier");
   });
 
-  passed &= property("every stop is left as early as is safe", [] {
-    constexpr int kWorlds = 5;
-    int waits = 0;
-    for (int i = 0; i < kWorlds; ++i) {
-      const World world = *any_world(5);
-      const Instance instance = world.instance();
-      for (const bool elastic : {false, true}) {
-        SippOptions options = any_angle_sipp(world);
-        options.elastic = elastic;
-        const Outcome outcome = search(instance, options);
-        if (outcome.trajectory) waits += leaves_each_stop_early(instance, *outcome.trajectory);
-      }
-    }
-    RC_CLASSIFY(waits > 0, "some wait");
-  });
+  passed &= property(
+      "every stop is left as early as is safe, whatever the weight; pulled tight, none can be left out", [] {
+        constexpr int kWorlds = 5;
+        int waits = 0;
+        for (int i = 0; i < kWorlds; ++i) {
+          const World world = *any_world(5);
+          const double weight = *any_of({1.0, 1.25, 2.0, 5.0});
+          const Instance instance = world.instance();
+          for (const bool elastic : {false, true}) {
+            SippOptions options = any_angle_sipp(world);
+            options.elastic = elastic;
+            options.weight = weight;
+            const Outcome outcome = search(instance, options);
+            if (!outcome.trajectory) continue;
+            waits += leaves_each_stop_early(instance, *outcome.trajectory);
+            const int stops = stops_to_leave_out(instance, world, *outcome.trajectory);
+            if (elastic) {
+              RC_ASSERT(stops == 0);
+            } else {
+              RC_CLASSIFY(stops > 0, "left out by pulling tight");
+            }
+          }
+        }
+        RC_CLASSIFY(waits > 0, "some wait");
+      });
 
   passed &= property("a search and a table that were used before change nothing", [] {
     const World world = *any_world(5);
@@ -423,6 +473,26 @@ int main() {
         RC_ASSERT(again.has_value() == fresh.trajectory.has_value());
         if (again) RC_ASSERT(*again == *fresh.trajectory);
       }
+    }
+  });
+
+  passed &= property("a search that is out of time, or told to stop, says so at once", [] {
+    const World world = *any_world(4);
+    const Instance instance = world.instance();
+    for (const SippOptions& options : {plain_sipp(world), any_angle_sipp(world)}) {
+      const Outcome whole = search(instance, options);
+      SearchLimits limits;
+      const std::atomic<bool> stop{true};
+      if (*rc::gen::arbitrary<bool>()) {
+        limits.stop = &stop;
+      } else {
+        limits.deadline = std::chrono::steady_clock::now() - std::chrono::seconds(1);
+      }
+      const Outcome cut = search(instance, options, limits);
+      RC_ASSERT(cut.statistics.expansions == 0U);
+      if (whole.statistics.expansions == 0) continue;
+      RC_ASSERT(!cut.trajectory);
+      RC_ASSERT(cut.failure == PlanFailure::kTimeLimit);
     }
   });
 

@@ -5,13 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "planner/core/tolerances.hpp"
 #include "planner/grid/heading.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "planner/solve/plan.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/exact_line_of_sight.hpp"
+#include "property_tests/support/exhaustive_search.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/steps_between.hpp"
@@ -91,6 +97,93 @@ void hasten(Trajectory& trajectory, std::size_t first, double seconds) {
     trajectory.motions[i].begin_s -= seconds;
     trajectory.motions[i].end_s -= seconds;
   }
+}
+
+/// Degrees, counter-clockwise as seen, of a way of the grid.
+double direction_deg(Cell path) {
+  const double degrees = std::atan2(-path.y, path.x) * (180 / std::acos(-1.0));
+  return degrees < 0 ? degrees + 360 : degrees;
+}
+
+/// A robot with a heading, alone among walls.
+struct Alone {
+  PlanCase plan_case;
+  Fraction radius;
+
+  const Agent& agent() const { return plan_case.instance.agents[0]; }
+};
+
+Alone make_alone() {
+  constexpr std::int32_t kWidth = 5;
+  constexpr std::int32_t kHeight = 4;
+  Alone alone;
+  Instance& instance = alone.plan_case.instance;
+  PlannerOptions& options = alone.plan_case.options;
+  instance.map = GridMap(kWidth, kHeight);
+  Agent agent;
+  agent.start = *any_cell(kWidth, kHeight);
+  agent.goal = *any_cell(kWidth, kHeight);
+  alone.radius = *any_of<Fraction>({{1, 2}, {1, 4}, {3, 10}});
+  agent.radius_cells = alone.radius.value();
+  agent.speed_cells_per_s = *any_of({1.0, 0.5, 2.0});
+  agent.rotation_speed = *any_of({1.0, 0.125, 0.5, 3.0});
+  agent.start_heading_deg = *any_of({0.0, 90.0, 45.0, 200.0, 315.0});
+  if (*rc::gen::arbitrary<bool>()) agent.goal_heading_deg = *any_of({0.0, 180.0, 270.0, 100.0});
+  instance.agents.push_back(agent);
+  for (int walls = *rc::gen::inRange(0, 7); walls > 0; --walls) {
+    const Cell cell = *any_cell(kWidth, kHeight);
+    if (cell != agent.start && cell != agent.goal) instance.map.set_blocked(cell, true);
+  }
+  options.rules.turns = true;
+  options.rules.wait_before_move_s = *any_of({0.0, 0.0, 0.5});
+  options.any_angle = false;
+  options.connectedness = *any_of({2, 3, 4, 5});
+  return alone;
+}
+
+/// When it can be at its goal, its last turn done: Dijkstra's algorithm over cells and headings.
+std::optional<double> earliest_alone_s(const Alone& alone) {
+  const GridMap& map = alone.plan_case.instance.map;
+  const Agent& agent = alone.agent();
+  const std::vector<Cell> steps = mediant_neighbourhood(alone.plan_case.options.connectedness);
+  std::vector<double> headings_deg;
+  for (const Cell step : steps) headings_deg.push_back(direction_deg(step));
+  headings_deg.push_back(agent.start_heading_deg);
+  const auto turn_s = [&](double from_deg, double to_deg) {
+    return std::abs(std::remainder(from_deg - to_deg, 360)) / (180 * agent.rotation_speed);
+  };
+  const auto state = [&](Cell cell, std::size_t heading) {
+    return map.index(cell) * headings_deg.size() + heading;
+  };
+  std::vector<double> arrivals_s(map.cell_count() * headings_deg.size(), kForever);
+  using Arrival = std::pair<double, std::size_t>;
+  std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> open;
+  arrivals_s[state(agent.start, steps.size())] = 0;
+  open.emplace(0, state(agent.start, steps.size()));
+  double least_s = kForever;
+  while (!open.empty()) {
+    const auto [now_s, id] = open.top();
+    open.pop();
+    if (now_s > arrivals_s[id]) continue;
+    const Cell here = map.cell(id / headings_deg.size());
+    const double facing_deg = headings_deg[id % headings_deg.size()];
+    if (here == agent.goal) {
+      least_s = std::min(least_s, now_s + turn_s(facing_deg, agent.goal_heading_deg.value_or(facing_deg)));
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Cell there{here.x + steps[i].x, here.y + steps[i].y};
+      if (!exactly_legal(map, alone.radius, there) || !exactly_clear(map, alone.radius, here, there))
+        continue;
+      const double then_s = now_s + turn_s(facing_deg, headings_deg[i]) +
+                            alone.plan_case.options.rules.wait_before_move_s +
+                            distance(here, there) / agent.speed_cells_per_s;
+      if (then_s >= arrivals_s[state(there, i)]) continue;
+      arrivals_s[state(there, i)] = then_s;
+      open.emplace(then_s, state(there, i));
+    }
+  }
+  if (least_s == kForever) return std::nullopt;
+  return least_s;
 }
 
 bool finds(const ValidationReport& report, AgentIndex agent, ViolationKind kind) {
@@ -185,6 +278,26 @@ int main() {
     RC_ASSERT(arrival_s <= plan_case.options.weight * stepwise_s + kRoundingS);
   });
 
+  passed &=
+      property("one robot alone, stepwise: as early as Dijkstra's algorithm over cells and headings", [] {
+        Alone alone = at_full_size(make_alone);
+        note_case(alone.plan_case);
+        const std::optional<double> earliest_s = earliest_alone_s(alone);
+        const auto arrival_s = [&] {
+          const PlanResult result = plan(alone.plan_case.instance, alone.plan_case.options);
+          RC_ASSERT((result.status == PlanStatus::kSolved) == earliest_s.has_value());
+          return earliest_s ? makespan_s(result.solution) : 0;
+        };
+        RC_CLASSIFY(!earliest_s, "no way");
+        RC_ASSERT(std::abs(arrival_s() - earliest_s.value_or(0)) <= kRoundingS);
+        alone.plan_case.options.weight = *any_of({1.25, 2.0, 5.0});
+        RC_ASSERT(arrival_s() <= alone.plan_case.options.weight * earliest_s.value_or(0) + kRoundingS);
+        // At any angle each step is offered, too.
+        alone.plan_case.options.weight = 1;
+        alone.plan_case.options.any_angle = true;
+        if (earliest_s) RC_ASSERT(arrival_s() <= *earliest_s + kRoundingS);
+      });
+
   passed &= property("one robot alone, stepwise: who turns twice as fast arrives no later", [] {
     PlanCase plan_case = one_turning_robot();
     plan_case.options.any_angle = false;
@@ -259,6 +372,47 @@ int main() {
         break;
     }
     RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.guarantees()), stop->agent, expected));
+  });
+
+  passed &= property("the validator finds a delay that is too short, also after a turn in parts", [] {
+    PlanCase plan_case = *any_turning_case();
+    plan_case.options.rules.wait_before_move_s = 0.5;
+    note_case(plan_case);
+    const PlanResult result = plan(plan_case.instance, plan_case.options);
+    RC_PRE(result.status == PlanStatus::kSolved);
+    ValidationOptions guarantees{plan_case.options.ssi_s, result.order(), plan_case.options.rules};
+    Solution solution = result.solution;
+    std::vector<Stop> stops;
+    for (AgentIndex i = 0; i < solution.trajectories.size(); ++i) {
+      const auto& motions = solution.trajectories[i].motions;
+      for (std::size_t k = 0; k + 1 < motions.size(); ++k) {
+        if (motions[k].is_wait() && !motions[k].is_turn() && !motions[k + 1].is_wait())
+          stops.push_back({i, k});
+      }
+    }
+    RC_PRE(!stops.empty());
+    const Stop stop = *rc::gen::elementOf(stops);
+    Trajectory& trajectory = solution.trajectories[stop.agent];
+    // Half of the delay is left.
+    TimedMotion& wait = trajectory.motions[stop.motion];
+    const double early_s = wait.end_s - wait.begin_s - guarantees.rules.wait_before_move_s / 2;
+    wait.end_s -= early_s;
+    hasten(trajectory, stop.motion + 1, early_s);
+    if (*rc::gen::arbitrary<bool>()) {
+      // A little aside and back before: as long as both take.
+      const double facing_deg = heading_deg(wait.from, trajectory.motions[stop.motion + 1].to);
+      constexpr double kAsideDeg = 90;
+      const double turn_s = kAsideDeg / (180 * plan_case.instance.agents[stop.agent].rotation_speed);
+      const double begin_s = wait.begin_s;
+      const Cell here = wait.from;
+      hasten(trajectory, stop.motion, -2 * turn_s);
+      trajectory.motions.insert(
+          trajectory.motions.begin() + static_cast<std::ptrdiff_t>(stop.motion),
+          {{begin_s, begin_s + turn_s, here, here, std::fmod(facing_deg + kAsideDeg, 360)},
+           {begin_s + turn_s, begin_s + 2 * turn_s, here, here, facing_deg}});
+    }
+    RC_ASSERT(
+        finds(validate(plan_case.instance, solution, guarantees), stop.agent, ViolationKind::kStandingTime));
   });
 
   return passed ? 0 : 1;

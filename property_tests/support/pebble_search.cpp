@@ -43,7 +43,7 @@ bool pebble_search_is_small(const Instance& instance) {
   return arrangements <= kMostArrangements;
 }
 
-bool is_solvable_by_pebbles(const Instance& instance) {
+PebbleSearch search_by_pebbles(const Instance& instance) {
   Arrangement starts;
   Arrangement goals;
   for (const Agent& agent : instance.agents) {
@@ -55,12 +55,14 @@ bool is_solvable_by_pebbles(const Instance& instance) {
   while (!open.empty()) {
     const Arrangement from = std::move(open.back());
     open.pop_back();
-    if (from == goals) return true;
+    if (from == goals) return {true, seen.size()};
     for (Arrangement& to : neighbours(instance.map, from)) {
       if (seen.insert(to).second) open.push_back(std::move(to));
     }
   }
-  return false;
+  return {false, seen.size()};
 }
+
+bool is_solvable_by_pebbles(const Instance& instance) { return search_by_pebbles(instance).is_solvable; }
 
 }  // namespace sipplab

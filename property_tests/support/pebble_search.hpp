@@ -4,6 +4,8 @@
 // first one first, so that nothing more can be reached by that, unless a closed ring turns.
 #pragma once
 
+#include <cstddef>
+
 #include "planner/io/plan_case.hpp"
 
 namespace sipplab {
@@ -17,6 +19,14 @@ inline constexpr double kMostArrangements = 6'000;
 
 /// Whether the number of arrangements of the robots on free cells is small enough.
 bool pebble_search_is_small(const Instance& instance);
+
+struct PebbleSearch {
+  bool is_solvable = false;
+  std::size_t arrangements = 0;  ///< seen: all that can be reached unless it is solvable
+};
+
+/// Moves robots one by one to free cells, until all are at their goals or nothing new can be reached.
+PebbleSearch search_by_pebbles(const Instance& instance);
 
 /// REQUIRES: pebble_search_is_small(instance).
 bool is_solvable_by_pebbles(const Instance& instance);

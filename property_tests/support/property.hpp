@@ -38,6 +38,13 @@ bool property(const std::string& title, Testable&& testable) {
                       rc::detail::toProperty(std::forward<Testable>(testable)));
 }
 
+/// What `make` draws, at full size from the first case on: a hundred cases say as much as the last hundred of
+/// a thousand.
+template <class Make>
+auto at_full_size(Make&& make) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::exec(std::forward<Make>(make)));
+}
+
 /// Says which case this property plans, if that is not the case that it drew: the
 /// log then holds this one.
 void note_case(const PlanCase& plan_case);

@@ -10,7 +10,8 @@ namespace sipplab {
 Vec2 sampled_position(const Trajectory& trajectory, double time_s) {
   for (const TimedMotion& motion : trajectory.motions) {
     if (time_s > motion.end_s) continue;
-    const double part = (time_s - motion.begin_s) / (motion.end_s - motion.begin_s);
+    // Between motions that leave a gap a body stays where the next one finds it.
+    const double part = std::max(0.0, (time_s - motion.begin_s) / (motion.end_s - motion.begin_s));
     return centre(motion.from) + (centre(motion.to) - centre(motion.from)) * part;
   }
   return centre(trajectory.end());

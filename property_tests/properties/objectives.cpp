@@ -1,0 +1,405 @@
+// What plans cost and what bounds them, by formulas of this file: sums and ties of objectives, gaps, lower
+// bounds where the work for them is given up, and which robots a rule of improvement takes out of a plan.
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "planner/core/random.hpp"
+#include "planner/grid/line_of_sight.hpp"
+#include "planner/improve/attempt.hpp"
+#include "planner/improve/neighbourhoods.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/improve/static_times.hpp"
+#include "planner/solve/plan.hpp"
+#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/property.hpp"
+#include "sipplab/prioritized_planner.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Seconds or cells: rounding of sums.
+constexpr double kRounding = 1e-9;
+
+/// When a robot has moved and turned for the last time.
+double arrival_of(const Trajectory& trajectory) {
+  double arrival_s = 0;
+  for (const TimedMotion& motion : trajectory.motions) {
+    const bool changes = motion.from.x != motion.to.x || motion.from.y != motion.to.y;
+    if (changes || motion.turn_to_deg) arrival_s = motion.end_s;
+  }
+  return arrival_s;
+}
+
+/// Which of two is less, the first difference decides.
+bool comes_first(const std::array<double, 3>& one, const std::array<double, 3>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (one[i] != other[i]) return one[i] < other[i];
+  }
+  return false;
+}
+
+/// Lengths of the shortest ways of straight sections (Bellman 1958); kForever if there is none.
+double shortest_way(const GridMap& map, const LineOfSight& sight, Cell from, Cell to) {
+  std::vector<double> paths(map.cell_count(), kForever);
+  paths[map.index(from)] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t a = 0; a < paths.size(); ++a) {
+      if (paths[a] == kForever) continue;
+      for (std::size_t b = 0; b < paths.size(); ++b) {
+        const double path = paths[a] + distance(map.cell(a), map.cell(b));
+        if (path >= paths[b] - kRounding || !sight.is_legal(map.cell(b))) continue;
+        if (!sight.is_clear(map.cell(a), map.cell(b))) continue;
+        paths[b] = path;
+        changed = true;
+      }
+    }
+  }
+  return paths[map.index(to)];
+}
+
+/// Robots of all sizes on small maps with many walls.
+PlanCase any_walled_case() {
+  PlanCase plan_case = *any_case();
+  RC_PRE(plan_case.instance.map.cell_count() <= 64u);
+  note_case(plan_case);
+  return plan_case;
+}
+
+/// A plan in repair, all of its robots planned.
+struct InRepair {
+  PlanCase plan_case;
+  Solution solution;
+  std::unique_ptr<SingleAgentPlanner> planner;
+  std::unique_ptr<PartialPlan> plan;
+  std::vector<Trajectory> fastest_paths;
+  std::vector<double> static_times_s;
+
+  const Instance& instance() const { return plan_case.instance; }
+  Neighbours neighbours() const { return {plan_case.instance, *plan, static_times_s, fastest_paths}; }
+};
+
+std::unique_ptr<InRepair> any_in_repair() {
+  auto repaired = std::make_unique<InRepair>();
+  repaired->plan_case = *any_case();
+  PlannerOptions& options = repaired->plan_case.options;
+  options.rescheduling = Rescheduling::kEjection;
+  options.max_restarts = 40;
+  options.ssi_s = 0;
+  const Instance& instance = repaired->instance();
+  RC_PRE(instance.agents.size() >= 2u);
+  note_case(repaired->plan_case);
+  const PlanResult result = plan(instance, options);
+  RC_PRE(result.status == PlanStatus::kSolved);
+  repaired->solution = result.solution;
+  repaired->planner = single_agent_planner(instance, options);
+  repaired->plan = std::make_unique<PartialPlan>(instance, 0, *repaired->planner);
+  for (const AgentIndex agent : result.order()) {
+    repaired->plan->insert(agent, result.solution.trajectories[agent]);
+  }
+  PartialPlan nobody(instance, 0, *repaired->planner);
+  for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
+    SearchStatistics work;
+    auto alone = nobody.find(agent, {}, work);
+    repaired->fastest_paths.push_back(alone ? *alone : result.solution.trajectories[agent]);
+    repaired->static_times_s.push_back(distance(instance.agents[agent].start, instance.agents[agent].goal) /
+                                       instance.agents[agent].speed_cells_per_s);
+  }
+  return repaired;
+}
+
+/// A loose box around where a robot is at some time near `time_s`.
+bool comes_near(const Trajectory& trajectory, Vec2 place, double time_s, double window_s, double cells) {
+  const auto is_near = [&](Cell from, Cell to) {
+    return std::min(from.x, to.x) - cells <= place.x && place.x <= std::max(from.x, to.x) + cells &&
+           std::min(from.y, to.y) - cells <= place.y && place.y <= std::max(from.y, to.y) + cells;
+  };
+  for (const TimedMotion& motion : trajectory.motions) {
+    if (motion.begin_s <= time_s + window_s && motion.end_s >= time_s - window_s &&
+        is_near(motion.from, motion.to)) {
+      return true;
+    }
+  }
+  return trajectory.end_s() <= time_s + window_s && is_near(trajectory.end(), trajectory.end());
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("flowtime is the sum of arrivals, makespan the latest; objectives weigh them", [] {
+    Scene scene = *any_scene();
+    for (Trajectory& trajectory : scene.solution.trajectories) {
+      if (*rc::gen::arbitrary<bool>()) {
+        const double now_s = trajectory.end_s();
+        trajectory.motions.push_back({now_s, now_s + 2, trajectory.end(), trajectory.end()});
+      }
+      if (*rc::gen::inRange(0, 3) == 0) {
+        const double now_s = trajectory.end_s();
+        trajectory.motions.push_back({now_s, now_s + 1, trajectory.end(), trajectory.end(), 90.0});
+      }
+    }
+    double flowtime = 0;
+    double makespan = 0;
+    for (const Trajectory& trajectory : scene.solution.trajectories) {
+      flowtime += arrival_of(trajectory);
+      makespan = std::max(makespan, arrival_of(trajectory));
+      RC_ASSERT(trajectory.arrival_s() == arrival_of(trajectory));
+    }
+    RC_ASSERT(std::abs(flowtime_s(scene.solution) - flowtime) <= kRounding * std::max(1.0, flowtime));
+    RC_ASSERT(makespan_s(scene.solution) == makespan);
+    const Objective objective{*any_of({1.0, 0.0, 3.0}), *any_of({20.0, 1.0, 0.0})};
+    RC_ASSERT(objective.of(flowtime, makespan) ==
+              objective.flowtime_weight * flowtime + objective.makespan_weight * makespan);
+  });
+
+  passed &= property("is_better: less by the objective, then less flowtime, then less makespan", [] {
+    const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1},
+                                                  Objective{1, 2}, Objective{2, 1});
+    const auto any_cost = [] {
+      return PlanCost{static_cast<double>(*rc::gen::inRange(0, 6)),
+                      static_cast<double>(*rc::gen::inRange(0, 4))};
+    };
+    const auto key = [&](const PlanCost& cost) {
+      return std::array<double, 3>{
+          objective.flowtime_weight * cost.flowtime_s + objective.makespan_weight * cost.makespan_s,
+          cost.flowtime_s, cost.makespan_s};
+    };
+    const PlanCost one = any_cost();
+    const PlanCost other = any_cost();
+    RC_ASSERT(is_better(objective, one, other) == comes_first(key(one), key(other)));
+    RC_CLASSIFY(key(one)[0] == key(other)[0], "ties");
+  });
+
+  passed &= property("gap: the share of a cost that is above its bound", [] {
+    const double bound = *rc::gen::inRange(0, 40) / 8.0;
+    const double cost = *rc::gen::inRange(0, 80) / 8.0;
+    RC_ASSERT(gap(cost, bound) == (cost > bound ? (cost - bound) / cost : 0));
+  });
+
+  passed &= property("a way's bound that is given up is a bound: straight <= bound <= shortest", [] {
+    const PlanCase plan_case = any_walled_case();
+    const Instance& instance = plan_case.instance;
+    RC_PRE(!instance.agents.empty());
+    const Agent& agent = instance.agents[*rc::gen::inRange<AgentIndex>(0, instance.agents.size())];
+    const LineOfSight sight(instance.map, agent.radius_cells);
+    const double shortest = shortest_way(instance.map, sight, agent.start, agent.goal);
+    RC_PRE(shortest < kForever);
+    const double straight = distance(agent.start, agent.goal);
+    const double longest = shortest * *any_of({1.0, 1.25, 3.0});
+    const std::size_t work = *rc::gen::element<std::size_t>(0, 1, 10, 30, 60, 100, 200, 400);
+    const double bound =
+        shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal, longest, work);
+    RC_ASSERT(bound >= straight - kRounding);
+    RC_ASSERT(bound <= shortest + kRounding);
+    // Bounds grow with the work for them.
+    RC_ASSERT(bound <=
+              shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal, longest) + kRounding);
+    RC_CLASSIFY(shortest > straight + kRounding, "round a corner");
+    RC_CLASSIFY(bound < shortest - kRounding, "given up");
+  });
+
+  passed &=
+      property("lower bounds of an instance: of the shortest ways, or straight where that is too much", [] {
+        const PlanCase plan_case = any_walled_case();
+        const Instance& instance = plan_case.instance;
+        const bool any_angle = *rc::gen::arbitrary<bool>();
+        const int k = plan_case.options.connectedness;
+        LowerBound straight;
+        LowerBound shortest;
+        bool all_have_ways = true;
+        for (const Agent& agent : instance.agents) {
+          const double blocks =
+              std::abs(agent.start.x - agent.goal.x) + std::abs(agent.start.y - agent.goal.y);
+          const double line = distance(agent.start, agent.goal);
+          const LineOfSight sight(instance.map, agent.radius_cells);
+          const double path = any_angle
+                                  ? shortest_way(instance.map, sight, agent.start, agent.goal)
+                                  : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, k);
+          all_have_ways = all_have_ways && path < kForever;
+          if (!any_angle && k == 2) RC_ASSERT(path >= blocks - kRounding);
+          const double straight_s = (any_angle || k > 2 ? line : blocks) / agent.speed_cells_per_s;
+          straight.flowtime_s += straight_s;
+          straight.makespan_s = std::max(straight.makespan_s, straight_s);
+          shortest.flowtime_s += path / agent.speed_cells_per_s;
+          shortest.makespan_s = std::max(shortest.makespan_s, path / agent.speed_cells_per_s);
+        }
+        RC_PRE(all_have_ways);
+        const LowerBound ample = lower_bound(instance, any_angle, k);
+        RC_ASSERT(std::abs(ample.flowtime_s - shortest.flowtime_s) <= kRounding * (1 + shortest.flowtime_s));
+        RC_ASSERT(std::abs(ample.makespan_s - shortest.makespan_s) <= kRounding * (1 + shortest.makespan_s));
+        RC_CLASSIFY(shortest.flowtime_s > straight.flowtime_s + kRounding, "round corners");
+        // Too little work for any, or for all that it takes.
+        for (const std::size_t work : {std::size_t{0}, instance.map.cell_count() * instance.agents.size()}) {
+          const LowerBound cheap = lower_bound(instance, any_angle, k, work);
+          RC_ASSERT(cheap.flowtime_s >= straight.flowtime_s - kRounding);
+          RC_ASSERT(cheap.makespan_s >= straight.makespan_s - kRounding);
+          RC_ASSERT(cheap.flowtime_s <= shortest.flowtime_s + kRounding * (1 + shortest.flowtime_s));
+          RC_ASSERT(cheap.makespan_s <= shortest.makespan_s + kRounding * (1 + shortest.makespan_s));
+          if (work > 0 || instance.agents.empty() || (!any_angle && k > 2)) continue;
+          RC_ASSERT(std::abs(cheap.flowtime_s - straight.flowtime_s) <=
+                    kRounding * (1 + straight.flowtime_s));
+        }
+      });
+
+  passed &=
+      property("static times are divided by speeds, on any number of threads, and below what is given", [] {
+        const PlanCase plan_case = any_walled_case();
+        const Instance& instance = plan_case.instance;
+        std::vector<double> paths;
+        for (const Agent& agent : instance.agents) {
+          const LineOfSight sight(instance.map, agent.radius_cells);
+          paths.push_back(shortest_way(instance.map, sight, agent.start, agent.goal));
+          RC_PRE(paths.back() < kForever);
+        }
+        for (const unsigned threads : {1U, 3U}) {
+          const std::vector<double> times_s = static_times_s(instance, true, 2, paths, threads);
+          RC_ASSERT(times_s.size() == paths.size());
+          for (std::size_t i = 0; i < paths.size(); ++i) {
+            RC_ASSERT(std::abs(times_s[i] - paths[i] / instance.agents[i].speed_cells_per_s) <=
+                      kRounding * (1 + times_s[i]));
+          }
+        }
+        const std::vector<double> given_up_s = static_times_s(instance, true, 2, paths, 1, 0);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+          RC_ASSERT(given_up_s[i] <= paths[i] / instance.agents[i].speed_cells_per_s + kRounding);
+        }
+        const LowerBound bound = lower_bound(given_up_s);
+        RC_ASSERT(bound.flowtime_s == std::accumulate(given_up_s.begin(), given_up_s.end(), 0.0));
+        RC_ASSERT(bound.makespan_s ==
+                  (given_up_s.empty() ? 0 : *std::max_element(given_up_s.begin(), given_up_s.end())));
+      });
+
+  passed &= property("cost_of: the cost of a plan in repair is that of its solution", [] {
+    const auto repaired = any_in_repair();
+    const PlanCost cost = cost_of(repaired->instance(), *repaired->plan);
+    double flowtime = 0;
+    double makespan = 0;
+    for (const Trajectory& trajectory : repaired->solution.trajectories) {
+      flowtime += arrival_of(trajectory);
+      makespan = std::max(makespan, arrival_of(trajectory));
+    }
+    RC_ASSERT(std::abs(cost.flowtime_s - flowtime) <= kRounding * (1 + flowtime));
+    RC_ASSERT(cost.makespan_s == makespan);
+  });
+
+  passed &= property("choose_neighbourhood: different robots, no more than asked for, by the rule", [] {
+    const auto repaired = any_in_repair();
+    const std::size_t robots = repaired->instance().agents.size();
+    const auto rule = static_cast<RemovalRule>(*rc::gen::inRange(0, static_cast<int>(kRemovalRules)));
+    const std::size_t most = *rc::gen::inRange<std::size_t>(1, 6);
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    const std::vector<AgentIndex> chosen = choose_neighbourhood(rule, repaired->neighbours(), most, random);
+    RC_TAG(std::string(name(rule)));
+    RC_ASSERT(!chosen.empty());
+    RC_ASSERT(chosen.size() == std::min(most, robots));
+    RC_ASSERT(std::set<AgentIndex>(chosen.begin(), chosen.end()).size() == chosen.size());
+    RC_ASSERT(*std::max_element(chosen.begin(), chosen.end()) < robots);
+    const auto& trajectories = repaired->solution.trajectories;
+    if (rule == RemovalRule::kLast) {
+      constexpr std::size_t kLast = 5;
+      std::size_t later = 0;  // of equal arrivals the first of the input counts as later
+      for (AgentIndex agent = 0; agent < robots; ++agent) {
+        const double one_s = arrival_of(trajectories[agent]);
+        const double first_s = arrival_of(trajectories[chosen[0]]);
+        later += one_s > first_s || (one_s == first_s && agent < chosen[0]);
+      }
+      RC_ASSERT(later < kLast);
+    }
+    if (rule == RemovalRule::kLast || rule == RemovalRule::kCrossing) {
+      // Who is in the way comes before all others.
+      const std::vector<AgentIndex> crossing =
+          repaired->plan->conflicts(chosen[0], repaired->fastest_paths[chosen[0]]);
+      for (std::size_t i = 1; i < chosen.size() && i <= crossing.size(); ++i) {
+        RC_ASSERT(std::count(crossing.begin(), crossing.end(), chosen[i]) == 1);
+      }
+      RC_CLASSIFY(!crossing.empty(), "somebody in the way");
+    }
+  });
+
+  passed &= property("choose_neighbourhood: in a window are robots that are near at some time", [] {
+    const auto repaired = any_in_repair();
+    const std::size_t robots = repaired->instance().agents.size();
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    Random random(seed);
+    const std::vector<AgentIndex> chosen =
+        choose_neighbourhood(RemovalRule::kWindow, repaired->neighbours(), 2, random);
+    RC_PRE(chosen.size() == 2u);
+    // Is there a moment of the first one's way at which another one is near, and is it chosen then?
+    const Trajectory& first = repaired->solution.trajectories[chosen[0]];
+    constexpr double kWindowCells = 3;
+    constexpr double kHalfWindowS = 3;
+    bool always_somebody = true;
+    bool chosen_is_near = false;
+    constexpr int kMoments = 64;
+    for (int i = 0; i <= kMoments; ++i) {
+      const double time_s = arrival_of(first) * i / kMoments;
+      const Vec2 place = [&] {
+        for (const TimedMotion& motion : first.motions) {
+          if (time_s > motion.end_s || motion.end_s <= motion.begin_s) continue;
+          const double share = (time_s - motion.begin_s) / (motion.end_s - motion.begin_s);
+          return centre(motion.from) + (centre(motion.to) - centre(motion.from)) * share;
+        }
+        return centre(first.end());
+      }();
+      constexpr double kLittleS = 0.5;
+      bool somebody = false;
+      for (AgentIndex other = 0; other < robots; ++other) {
+        if (other == chosen[0]) continue;
+        const Trajectory& path = repaired->solution.trajectories[other];
+        somebody =
+            somebody || comes_near(path, place, time_s, kHalfWindowS - kLittleS, kWindowCells - kLittleS);
+      }
+      always_somebody = always_somebody && somebody;
+      chosen_is_near = chosen_is_near || comes_near(repaired->solution.trajectories[chosen[1]], place, time_s,
+                                                    kHalfWindowS + kLittleS, kWindowCells + kLittleS);
+    }
+    RC_CLASSIFY(always_somebody, "somebody near at any time");
+    if (always_somebody) RC_ASSERT(chosen_is_near);
+  });
+
+  passed &= property("RuleRoulette: favours the rule that gains, gives up none, and knows no unit", [] {
+    const auto winner = static_cast<RemovalRule>(*rc::gen::inRange(0, static_cast<int>(kRemovalRules)));
+    const double gain = *any_of({1.0, 1e-6, 1e6});
+    RuleRoulette roulette;
+    RuleRoulette same;
+    constexpr int kLessons = 400;
+    for (int i = 0; i < kLessons; ++i) {
+      for (std::size_t rule = 0; rule < kRemovalRules; ++rule) {
+        const bool wins = static_cast<RemovalRule>(rule) == winner;
+        roulette.learn(static_cast<RemovalRule>(rule), wins ? gain : 0);
+        same.learn(static_cast<RemovalRule>(rule), wins ? 1 : 0);
+      }
+    }
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    Random random(seed);
+    Random again(seed);
+    std::array<int, kRemovalRules> drawn{};
+    constexpr int kDraws = 400;
+    for (int i = 0; i < kDraws; ++i) {
+      const RemovalRule rule = roulette.draw(random);
+      ++drawn[static_cast<std::size_t>(rule)];
+      RC_ASSERT(rule == same.draw(again));
+    }
+    for (std::size_t rule = 0; rule < kRemovalRules; ++rule) {
+      if (static_cast<RemovalRule>(rule) == winner) {
+        RC_ASSERT(drawn[rule] > kDraws / 2);
+      } else {
+        RC_ASSERT(drawn[rule] > 0);
+      }
+    }
+  });
+
+  return passed ? 0 : 1;
+}
