@@ -20,6 +20,7 @@
 #include "planner/io/tracker.hpp"
 #include "planner/retime/retime.hpp"
 #include "planner/retime/steps.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "sipplab/instance_io.hpp"
 #include "sipplab/solution_io.hpp"
 #include "sipplab/solve.hpp"
@@ -198,11 +199,8 @@ Expected<SolveResult, std::string> given_plan(const PlanArguments& arguments, co
     }
   }
   outcome.plan.planning_seconds = seconds_since(begin);
-  if (options.improve) {
-    PlannerOptions improving = options;
-    improving.ssi_s = 0;  // it promises nothing of starts
-    outcome.improvement = improve(instance, outcome.plan.solution, outcome.plan.order(), improving);
-  }
+  // It promises nothing of starts.
+  if (options.improve) outcome.improvement = improve_in_stages(instance, outcome.plan, options);
   return outcome;
 }
 

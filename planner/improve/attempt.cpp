@@ -77,7 +77,7 @@ PlanCost cost_of(const Instance& instance, const PartialPlan& plan) {
 
 Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random) {
   Attempt attempt;
-  attempt.rule = round.roulette.draw(random);
+  attempt.rule = static_cast<RemovalRule>(round.roulette.draw(random));
   const std::size_t most = kFewestRemoved + random.below(kMostRemoved - kFewestRemoved + 1);
   attempt.robots = choose_neighbourhood(
       attempt.rule, {round.instance, plan, round.static_times_s, round.fastest_ways}, most, random);

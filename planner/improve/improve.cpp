@@ -56,7 +56,10 @@ class LargeNeighbourhoodSearch {
     }
     note_progress(done);
     result_.solution = plan().solution();
-    if (result_.log.keeps_promise) result_.order = plan().order();
+    if (result_.log.keeps_promise) {
+      result_.order = plan().order();
+      result_.ssi_kept_s = options_.ssi_s;
+    }
     return std::move(result_);
   }
 
@@ -117,7 +120,8 @@ class LargeNeighbourhoodSearch {
       if (attempt.was_cut_short) break;
       ++result_.log.iterations;
       result_.statistics += attempt.work;
-      roulette_.learn(attempt.rule, attempt.gain / static_cast<double>(attempt.work.expansions + 1));
+      roulette_.learn(static_cast<std::size_t>(attempt.rule),
+                      attempt.gain / static_cast<double>(attempt.work.expansions + 1));
       if (attempt.is_better) take(round, attempt, changed);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/prioritized/limits.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "planner/solve/plan.hpp"
 #include "sipplab/solution.hpp"
 #include "sipplab/solve.hpp"
@@ -145,11 +146,10 @@ class BestPlan {
 
   void improve_it() {
     PlannerOptions improving = options_;
-    improving.ssi_s = result_.plan.ssi_kept_s;
     ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
     budget.seconds = std::min(budget.seconds, time_left_s());
     improving.improve = budget;
-    result_.improvement = improve(instance_, result_.plan.solution, result_.plan.order(), improving);
+    result_.improvement = improve_in_stages(instance_, result_.plan, improving);
   }
 
   const Instance& instance_;

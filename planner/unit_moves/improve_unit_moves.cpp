@@ -1,0 +1,209 @@
+#include "planner/unit_moves/improve_unit_moves.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "planner/complete/complete_planner.hpp"
+#include "planner/core/clock.hpp"
+#include "planner/core/parallel.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/retime/steps.hpp"
+#include "planner/retime/unit_schedule.hpp"
+#include "planner/unit_moves/attempt.hpp"
+
+namespace sipplab {
+namespace {
+
+/// Iterations that begin with the same plan, on any number of threads.
+constexpr std::uint64_t kIterationsPerRound = 8;
+
+/// Expansions, for each visit of a robot to a cell, after which all robots get the earliest times for their
+/// routes.
+constexpr std::uint64_t kExpansionsPerVisit = 8;
+
+/// Routes with the times that were found for visits.
+std::vector<Route> routes_of(const Visits& visits, const std::vector<std::int64_t>& ticks) {
+  std::vector<Route> routes(visits.robots());
+  for (RobotId robot = 0; robot < visits.robots(); ++robot) {
+    for (VisitId id = visits.first_of(robot); id != kNoVisit; id = visits[id].after) {
+      routes[robot].push_back({visits[id].cell, static_cast<Tick>(ticks[id])});
+    }
+  }
+  return routes;
+}
+
+class UnitImprover {
+ public:
+  UnitImprover(const Instance& instance, const PlannerOptions& options, const FreeGrid& grid,
+               SharedDistances& distances)
+      : instance_(instance),
+        options_(options),
+        budget_(options.improve.value_or(ImproveBudget{})),
+        reach_cells_(std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0)),
+        unit_move_s_(1 / instance.agents.front().speed_cells_per_s),
+        stream_(Random(options.seed).next()),
+        begin_(Clock::now()),
+        grid_(grid),
+        moves_(grid, reach_cells_),
+        distances_(distances) {
+    limits_.deadline = deadline_after(begin_, budget_.seconds);
+    limits_.stop = options.stop;
+  }
+
+  /// False if there are no times for it.
+  bool begin(Visits visits, const PlanCost& cost) {
+    note_progress(cost);
+    return retime(std::move(visits));
+  }
+
+  void run() {
+    const std::uint64_t& done = log_.iterations;
+    while (done < budget_.iterations) {
+      log_.was_cut_short = limits_.is_over();
+      if (log_.was_cut_short) break;
+      play_round(std::min(kIterationsPerRound, budget_.iterations - done));
+      if (unretimed_ < kExpansionsPerVisit * visits_) continue;
+      retime(visits_of_plan());
+      note_progress(cost_s());
+    }
+  }
+
+  UnitImprovement take(const Solution& given) {
+    Visits visits = visits_of_plan();
+    visits.remove_round_trips();
+    UnitSchedule schedule = unit_schedule(grid_, visits, reach_cells_, unit_move_s_);
+    UnitImprovement result;
+    result.solution = std::move(schedule.solution);
+    result.order = longest_kept_order(instance_, visits, schedule.arrivals_s, options_.ssi_s);
+    note_progress({flowtime_s(result.solution), makespan_s(result.solution)});
+    result.log = std::move(log_);
+    result.statistics = statistics_;
+    (void)given;
+    return result;
+  }
+
+ private:
+  const Timetable& plan() const { return workers_.front()->plan(); }
+
+  PlanCost cost_s() const {
+    const double tick_s = unit_move_s_ / kTicksPerMove;
+    return {static_cast<double>(cost_.flowtime) * tick_s, cost_.makespan * tick_s};
+  }
+
+  void note_progress(const PlanCost& cost) {
+    log_.curve.push_back({seconds_since(begin_), log_.iterations, cost});
+  }
+
+  Visits visits_of_plan() const {
+    VisitCollector collector(grid_.size());
+    for (RobotId robot = 0; robot < plan().robots(); ++robot) {
+      const Route& route = plan().route(robot);
+      collector.add_robot(route.front().cell);
+      for (std::size_t i = 1; i < route.size(); ++i) {
+        collector.add_move(route[i].cell, route[i].arrival - kMoveTicks, route[i].arrival);
+      }
+    }
+    std::optional<Visits> visits = std::move(collector).take();
+    PLANNER_ASSERT(visits.has_value());
+    return std::move(*visits);
+  }
+
+  /// The earliest times for the plan's ways and orders; false if there are none.
+  bool retime(Visits visits) {
+    visits.remove_round_trips();
+    const std::vector<std::int64_t> ticks = unit_ticks(grid_, visits, reach_cells_);
+    if (ticks.size() != visits.size()) return false;
+    const std::vector<Route> routes = routes_of(visits, ticks);
+    workers_.resize(std::max(options_.threads, 1U));
+    for_each_in_parallel(workers_.size(), workers_.size(), [&](std::size_t, std::size_t i) {
+      workers_[i] = std::make_unique<UnitWorker>(moves_, distances_, routes);
+    });
+    cost_ = workers_.front()->cost();
+    visits_ = visits.size();
+    unretimed_ = 0;
+    return true;
+  }
+
+  /// Tries some neighbourhoods of the same plan, then takes over what makes it no worse, in the order of
+  /// their numbers, so that it does not matter which thread tried which.
+  void play_round(std::uint64_t iterations) {
+    const UnitRound round{options_.objective, rules_, sizes_, cost_};
+    std::vector<UnitAttempt> attempts(iterations);
+    for_each_in_parallel(workers_.size(), attempts.size(), [&](std::size_t worker, std::size_t i) {
+      attempts[i] = workers_[worker]->attempt(round, Random(stream_ + log_.iterations + i));
+    });
+    std::vector<RobotId> changed;
+    for (const UnitAttempt& attempt : attempts) {
+      ++log_.iterations;
+      statistics_ += attempt.work;
+      unretimed_ += attempt.work.expansions;
+      const double gain = attempt.gain / static_cast<double>(attempt.work.expansions + 1);
+      rules_.learn(attempt.rule, gain);
+      sizes_.learn(attempt.size, gain);
+      if (attempt.is_accepted) take_over(attempt, changed);
+    }
+  }
+
+  void take_over(const UnitAttempt& attempt, std::vector<RobotId>& changed) {
+    const auto is_changed = [&](RobotId robot) {
+      return std::find(changed.begin(), changed.end(), robot) != changed.end();
+    };
+    if (std::any_of(attempt.robots.begin(), attempt.robots.end(), is_changed)) return;
+    const UnitCost before = cost_;
+    if (!workers_.front()->take_over(options_.objective, attempt, cost_)) return;
+    for (std::size_t i = 1; i < workers_.size(); ++i) {
+      UnitCost same = before;
+      workers_[i]->take_over(options_.objective, attempt, same);
+    }
+    changed.insert(changed.end(), attempt.robots.begin(), attempt.robots.end());
+    log_.improvements += is_better(options_.objective, cost_, before);
+  }
+
+  const Instance& instance_;
+  const PlannerOptions& options_;
+  ImproveBudget budget_;
+  double reach_cells_;
+  double unit_move_s_;
+  std::uint64_t stream_;  ///< where the seeds of the iterations begin
+  Clock::time_point begin_;
+  SearchLimits limits_;
+  const FreeGrid& grid_;
+  UnitMoves moves_;
+  SharedDistances& distances_;
+  std::vector<std::unique_ptr<UnitWorker>> workers_;  ///< the same plan, once for each thread
+  Roulette<kUnitRules> rules_;
+  Roulette<std::size(kUnitSizes)> sizes_;
+  UnitCost cost_;
+  std::size_t visits_ = 0;
+  std::uint64_t unretimed_ = 0;  ///< expansions since the last times for all
+  ImprovementLog log_;
+  SearchStatistics statistics_;
+};
+
+}  // namespace
+
+std::optional<UnitImprovement> improve_unit_moves(const Instance& instance, const Solution& given,
+                                                  const PlannerOptions& options) {
+  if (instance.agents.empty() || find_beyond_complete(instance, options.rules)) return std::nullopt;
+  const FreeGrid grid(instance.map);
+  std::optional<Visits> visits = unit_visits(instance, grid, given);
+  if (!visits) return std::nullopt;
+  std::vector<CellId> starts;
+  std::vector<CellId> goals;
+  for (const Agent& agent : instance.agents) {
+    starts.push_back(grid.id(agent.start));
+    goals.push_back(grid.id(agent.goal));
+  }
+  SharedDistances distances(grid, starts, goals);
+  UnitImprover improver(instance, options, grid, distances);
+  const PlanCost before{flowtime_s(given), makespan_s(given)};
+  if (!improver.begin(std::move(*visits), before)) return std::nullopt;
+  improver.run();
+  UnitImprovement result = improver.take(given);
+  if (is_better(options.objective, before, result.log.curve.back().cost)) return std::nullopt;
+  return result;
+}
+
+}  // namespace sipplab
