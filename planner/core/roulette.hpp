@@ -1,4 +1,5 @@
-// Adaptive choice among a few ways to do something, by what each has gained (Ropke and Pisinger 2006).
+// Adaptive choice among a few ways to do something, by what each has gained for its work (after Ropke and
+// Pisinger 2006).
 #pragma once
 
 #include <algorithm>
@@ -25,31 +26,38 @@ std::size_t draw_by(const Weights& weights, Random& random) {
   return std::min(drawn, std::size(weights) - 1);
 }
 
-/// A roulette wheel over `kWays` ways: favours those that gain most for their work.
+/// A roulette wheel over `kWays` ways: a way's share is its gain for its work, of late.
 template <std::size_t kWays>
 class Roulette {
  public:
-  Roulette() { weights_.fill(1); }
+  std::size_t draw(Random& random) const {
+    std::array<double, kWays> weights{};
+    double greatest = 0;
+    for (std::size_t way = 0; way < kWays; ++way) {
+      if (work_[way] > 0) weights[way] = gain_[way] / work_[way];
+      greatest = std::max(greatest, weights[way]);
+    }
+    if (!(greatest > 0)) weights.fill(greatest = 1);
+    for (std::size_t way = 0; way < kWays; ++way) {
+      weights[way] = work_[way] > 0 ? std::max(weights[way], kLeastWeight * greatest) : greatest;
+    }
+    return draw_by(weights, random);
+  }
 
-  std::size_t draw(Random& random) const { return draw_by(weights_, random); }
-
-  /// `gain` >= 0, per unit of work, in any unit.
-  void learn(std::size_t way, double gain) {
-    scale_ = std::max(scale_ * kScaleDecay, gain);
-    const double share = scale_ > 0 ? gain / scale_ : 0;
-    weights_[way] = std::max(weights_[way] * (1 - kLearningRate) + share * kLearningRate, kLeastWeight);
+  /// `gain` >= 0 and `work` > 0, in any units.
+  void learn(std::size_t way, double gain, double work) {
+    gain_[way] = gain_[way] * kMemory + gain;
+    work_[way] = work_[way] * kMemory + work;
   }
 
  private:
-  /// Share of the last gain in a weight.
-  static constexpr double kLearningRate = 0.02;
+  /// What the past counts after each draw of a way.
+  static constexpr double kMemory = 0.97;
   /// Least weight, the greatest being 1: no way is given up for good.
   static constexpr double kLeastWeight = 0.05;
-  /// Factor by which the greatest gain decays with each draw.
-  static constexpr double kScaleDecay = 0.999;
 
-  std::array<double, kWays> weights_;
-  double scale_ = 0;  ///< greatest recent gain, so that weights do not depend on units
+  std::array<double, kWays> gain_{};
+  std::array<double, kWays> work_{};
 };
 
 }  // namespace sipplab

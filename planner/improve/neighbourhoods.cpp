@@ -21,7 +21,7 @@ constexpr double kWindowS = 6;
 std::vector<double> delay_weights(const Neighbours& among) {
   std::vector<double> weights;
   for (AgentIndex agent = 0; agent < among.instance.agents.size(); ++agent) {
-    const double delay_s = among.plan.trajectory(agent).arrival_s() - among.static_times_s[agent];
+    const double delay_s = among.plan.trajectory(agent).arrival_s() - among.fastest_s[agent];
     weights.push_back(std::max(delay_s, 0.0) + kDelayFloorS);
   }
   return weights;

@@ -28,7 +28,7 @@ std::string_view name(RemovalRule rule);
 struct Neighbours {
   const Instance& instance;
   const PartialPlan& plan;
-  const std::vector<double>& static_times_s;    ///< by robot
+  const std::vector<double>& fastest_s;         ///< by robot: arrivals on fastest_ways
   const std::vector<Trajectory>& fastest_ways;  ///< by robot, alone on the map
 };
 

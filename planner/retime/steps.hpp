@@ -11,8 +11,8 @@
 
 namespace sipplab {
 
-/// Which robot visits which cell, and in which order. None for plans with other moves than straight ones along
-/// rows and columns of free cells, or with two robots at one cell.
+/// Which robot visits which cell, and in which order. None for plans with other moves than straight ones
+/// along rows and columns of free cells, or with two robots at one cell.
 std::optional<Visits> unit_visits(const Instance& instance, const FreeGrid& grid, const Solution& solution);
 
 /// The cells of each robot, step after step from its start on, with the ways and the order at each cell that

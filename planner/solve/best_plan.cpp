@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/complete/complete_planner.hpp"
+#include "planner/improve/objective.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "planner/solve/improve_stages.hpp"
 #include "planner/solve/plan.hpp"
@@ -25,11 +26,17 @@ constexpr std::uint64_t kEscalationRestarts = 0;
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
 /// Steps of the complete planner for a first plan. (Trials: some hundreds, however many robots.)
 constexpr std::uint64_t kFirstPlanSteps = 10'000;
+/// ... if the complete planner has given a plan: ejection is worth its time where few robots fail.
+constexpr std::uint64_t kFewEjections = 8;
+constexpr std::size_t kRobotsPerEjection = 40;
+/// Expansions for improvement by unit moves, for each one that the other plan took: they take about a tenth
+/// of the time. The plan that is cheaper then is improved further.
+constexpr std::uint64_t kUnitExpansions = 10;
 /// Share of the time limit for that plan.
 constexpr double kShareOfFirstPlan = 0.1;
 /// Share of the time limit in which a better plan must have been found. The rest is for
 /// improvement, which a plan of the complete planner needs more than any other.
-constexpr double kShareBeforeImprovement = 0.3;
+constexpr double kShareBeforeImprovement = 0.15;
 
 class BestPlan {
  public:
@@ -44,9 +51,10 @@ class BestPlan {
 
   SolveResult run() {
     if (has_fallback_) fall_back(kFirstPlanSteps, options_.time_limit_s * kShareOfFirstPlan);
-    const bool is_found =
-        take(BestStep::Kind::kMethod, options_.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
-        take(BestStep::Kind::kEjection, options_.ssi_s) || escalate(BestStep::Kind::kEjection);
+    const bool is_found = take(BestStep::Kind::kMethod, options_.ssi_s) ||
+                          escalate(BestStep::Kind::kEscalation) ||
+                          take(BestStep::Kind::kEjection, options_.ssi_s) ||
+                          (fallback_.status != PlanStatus::kSolved && escalate(BestStep::Kind::kEjection));
     if (!is_found && fallback_.status == PlanStatus::kLimit) {
       fall_back(UINT64_MAX, time_left_s());
     }
@@ -80,6 +88,9 @@ class BestPlan {
       case BestStep::Kind::kEscalation:
         return kEscalationRestarts;
       case BestStep::Kind::kEjection:
+        if (fallback_.status == PlanStatus::kSolved) {
+          return std::max<std::uint64_t>(kFewEjections, instance_.agents.size() / kRobotsPerEjection);
+        }
         return kEjectionRestartsPerRobot * instance_.agents.size();
       case BestStep::Kind::kFallback:
         return 0;
@@ -136,20 +147,35 @@ class BestPlan {
     before = std::move(next);
   }
 
-  /// The plan of the last step, which keeps the promise of start-safe intervals; else that of
-  /// the complete planner. What the others took comes before it.
+  /// The plan that is cheaper, that of the complete planner after some improvement; of the same cost the one
+  /// that keeps the promise of start-safe intervals. What the others took comes before it.
   void choose(bool is_found) {
-    const bool takes_fallback = !is_found && has_fallback_;
+    const bool takes_fallback = !is_found ? has_fallback_ : fallback_.status == PlanStatus::kSolved && wins();
+    if (!takes_fallback) begun_.reset();
     result_.plan = std::move(takes_fallback ? fallback_ : planned_);
     prepend(takes_fallback ? planned_ : fallback_, result_.plan);
+  }
+
+  /// Whether the plan of the complete planner is the better one after the work that the other one took.
+  bool wins() {
+    PlannerOptions improving = options_;
+    ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    budget.seconds = std::min(budget.seconds, time_left_s() * kShareBeforeImprovement);
+    improving.improve = budget;
+    begun_ = improve_unit_moves(instance_, fallback_.solution, improving,
+                                kUnitExpansions * planned_.statistics.expansions);
+    const Solution& improved = begun_ ? begun_->solution : fallback_.solution;
+    const auto cost_of = [](const Solution& plan) { return PlanCost{flowtime_s(plan), makespan_s(plan)}; };
+    return is_better(options_.objective, cost_of(improved), cost_of(planned_.solution));
   }
 
   void improve_it() {
     PlannerOptions improving = options_;
     ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    if (begun_) budget.iterations -= begun_->log.iterations;
     budget.seconds = std::min(budget.seconds, time_left_s());
     improving.improve = budget;
-    result_.improvement = improve_in_stages(instance_, result_.plan, improving);
+    result_.improvement = improve_in_stages(instance_, result_.plan, improving, begun_);
   }
 
   const Instance& instance_;
@@ -159,6 +185,7 @@ class BestPlan {
   Clock::time_point begin_;
   PlanResult fallback_;  ///< of the complete planner; failed if it was not asked
   PlanResult planned_;   ///< of the other steps
+  Begun begun_;          ///< of the plan of the complete planner
   SolveResult result_;
 };
 

@@ -1,54 +1,67 @@
 #include "planner/solve/improve_stages.hpp"
 
-#include <cstdlib>
-#include <optional>
+#include <algorithm>
 #include <utility>
-
-#include "planner/core/clock.hpp"
-#include "planner/unit_moves/improve_unit_moves.hpp"
+#include <vector>
 
 namespace sipplab {
 namespace {
 
+/// Share of the budget for unit moves, while they gain enough. (Paper's warehouse with 192 robots, 10 s of
+/// processor time: 5,071 with a tenth, 4,922 with a quarter, 4,861 with three quarters.)
+constexpr double kShareOfUnitMoves = 0.75;
+
 /// What one stage did comes before what the next one did.
-void prepend(const ImprovementLog& before, ImprovementLog& log) {
-  std::vector<ProgressPoint> curve = before.curve;
+void prepend(const UnitImprovement& before, ImproveResult& result) {
+  ImprovementLog& log = result.log;
+  std::vector<ProgressPoint> curve = before.log.curve;
   for (ProgressPoint point : log.curve) {
-    point.seconds += before.curve.back().seconds;
-    point.iteration += before.iterations;
+    point.seconds += before.log.curve.back().seconds;
+    point.iteration += before.log.iterations;
     curve.push_back(point);
   }
   log.curve = std::move(curve);
-  log.iterations += before.iterations;
-  log.improvements += before.improvements;
+  log.iterations += before.log.iterations;
+  log.improvements += before.log.improvements;
+  result.statistics += before.statistics;
+}
+
+ImproveBudget share_of(const ImproveBudget& budget, double share) {
+  ImproveBudget part = budget;
+  part.seconds *= share;
+  if (budget.iterations != UINT64_MAX) {
+    part.iterations = static_cast<std::uint64_t>(share * static_cast<double>(budget.iterations));
+  }
+  return part;
+}
+
+ImproveBudget left_of(const ImproveBudget& budget, const UnitImprovement& done) {
+  ImproveBudget left = budget;
+  left.seconds = std::max(budget.seconds - done.log.curve.back().seconds, 0.0);
+  left.iterations -= std::min(left.iterations, done.log.iterations);
+  return left;
 }
 
 }  // namespace
 
 ImproveResult improve_in_stages(const Instance& instance, const PlanResult& given,
-                                const PlannerOptions& options) {
-  const Clock::time_point begin = Clock::now();
-  PlannerOptions improving = options;
-  improving.ssi_s = given.ssi_kept_s;
-  std::optional<UnitImprovement> unit = improve_unit_moves(instance, given.solution, improving);
-  if (!unit) return improve(instance, given.solution, given.order(), improving);
-  if (std::getenv("UNIT_ONLY") != nullptr) {
-    ImproveResult r;
-    r.solution = unit->solution;
-    r.order = unit->order.order;
-    r.log = unit->log;
-    r.ssi_kept_s = unit->order.kept_s;
-    r.statistics = unit->statistics;
-    return r;
+                                const PlannerOptions& options, const Begun& begun) {
+  const ImproveBudget budget = options.improve.value_or(ImproveBudget{});
+  const bool is_lacams = given.made_by == Method::kComplete;
+  PlannerOptions stage = options;
+  Begun unit;
+  if (is_lacams || given.ssi_kept_s == 0) {
+    stage.ssi_s = is_lacams ? given.ssi_s : 0;
+    stage.improve = share_of(budget, kShareOfUnitMoves);
+    unit = improve_unit_moves(instance, begun ? begun->solution : given.solution, stage);
   }
-  ImproveBudget left = options.improve.value_or(ImproveBudget{});
-  left.iterations -= unit->log.iterations;
-  left.seconds -= seconds_since(begin);
-  improving.improve = left;
-  improving.ssi_s = unit->order.kept_s;
-  ImproveResult result = improve(instance, unit->solution, unit->order.order, improving);
-  prepend(unit->log, result.log);
-  result.statistics += unit->statistics;
+  stage.improve = unit ? left_of(budget, *unit) : budget;
+  const Begun& last = unit ? unit : begun;
+  stage.ssi_s = last ? last->order.kept_s : given.ssi_kept_s;
+  ImproveResult result = last ? improve(instance, last->solution, last->order.order, stage)
+                              : improve(instance, given.solution, given.order(), stage);
+  if (unit) prepend(*unit, result);
+  if (begun) prepend(*begun, result);
   return result;
 }
 

@@ -18,14 +18,22 @@ PlanCost in_ticks(const UnitCost& cost) {
 
 /// The latest arrival with which the plan may still be no worse, if `left` is what robots had that have none
 /// now, less what they need at least.
-Tick latest_arrival(const Objective& objective, std::int64_t left, const UnitCost& cost) {
-  if (objective.flowtime_weight == 0) return cost.makespan;
-  const double from_makespan = objective.makespan_weight / objective.flowtime_weight * cost.makespan;
-  const double latest = static_cast<double>(left) + from_makespan;
+Tick latest_arrival(const UnitRound& round, std::int64_t left) {
+  const Objective& objective = round.objective;
+  const UnitCost& cost = round.cost;
+  const double spare = round.worst - value(objective, cost);
+  if (objective.flowtime_weight == 0)
+    return cost.makespan + static_cast<Tick>(spare / objective.makespan_weight);
+  const double from_makespan = objective.makespan_weight * cost.makespan;
+  const double latest = static_cast<double>(left) + (from_makespan + spare) / objective.flowtime_weight;
   return latest < kNever ? static_cast<Tick>(latest) : kNever;
 }
 
 }  // namespace
+
+double value(const Objective& objective, const UnitCost& cost) {
+  return objective.of(static_cast<double>(cost.flowtime), static_cast<double>(cost.makespan));
+}
 
 bool is_better(const Objective& objective, const UnitCost& one, const UnitCost& other) {
   return is_better(objective, in_ticks(one), in_ticks(other));
@@ -50,21 +58,17 @@ UnitCost UnitWorker::cost() const {
 
 UnitAttempt UnitWorker::attempt(const UnitRound& round, Random random) {
   UnitAttempt attempt;
-  attempt.rule = round.rules.draw(random);
-  attempt.size = round.sizes.draw(random);
-  attempt.robots =
-      neighbourhoods_.choose(static_cast<UnitRule>(attempt.rule), kUnitSizes[attempt.size], random);
+  attempt.way = round.ways.draw(random);
+  attempt.robots = neighbourhoods_.choose(static_cast<UnitRule>(attempt.way % kUnitRules),
+                                          kUnitSizes[attempt.way / kUnitRules], random);
   random.shuffle(attempt.robots);
   const SearchStatistics before_it{search_.expansions(), search_.generations()};
   std::vector<Route> before = remove(attempt.robots);
   plan_again(round, before, attempt);
   if (attempt.found.size() == attempt.robots.size()) {
     const UnitCost cost = cost_with(round.cost, attempt, before);
-    attempt.is_accepted = attempt.found != before && !is_better(round.objective, round.cost, cost);
-    const auto value = [&](const UnitCost& of) {
-      return round.objective.of(static_cast<double>(of.flowtime), static_cast<double>(of.makespan));
-    };
-    attempt.gain = std::max(value(round.cost) - value(cost), 0.0);
+    attempt.is_accepted = attempt.found != before && value(round.objective, cost) <= round.worst;
+    attempt.gain = std::max(value(round.objective, round.cost) - value(round.objective, cost), 0.0);
   }
   put_back(attempt, attempt.found.size(), std::move(before));
   attempt.work.expansions = search_.expansions() - before_it.expansions;
@@ -80,7 +84,7 @@ void UnitWorker::plan_again(const UnitRound& round, const std::vector<Route>& be
   }
   for (const RobotId robot : attempt.robots) {
     left += distances_.least_arrival(robot);
-    const Tick latest = latest_arrival(round.objective, left, round.cost);
+    const Tick latest = latest_arrival(round, left);
     std::optional<Route> found = search_.find(robot, plan_, latest, kMostExpansions);
     if (!found) return;
     left -= found->back().arrival;
@@ -89,7 +93,7 @@ void UnitWorker::plan_again(const UnitRound& round, const std::vector<Route>& be
   }
 }
 
-bool UnitWorker::take_over(const Objective& objective, const UnitAttempt& attempt, UnitCost& cost) {
+std::vector<Route> UnitWorker::take_over(const UnitRound& round, const UnitAttempt& attempt, UnitCost& cost) {
   PLANNER_ASSERT(attempt.is_accepted);
   std::vector<Route> before = remove(attempt.robots);
   std::size_t entered = 0;
@@ -99,13 +103,18 @@ bool UnitWorker::take_over(const Objective& objective, const UnitAttempt& attemp
   }
   if (entered == attempt.robots.size()) {
     const UnitCost now = cost_with(cost, attempt, before);
-    if (!is_better(objective, cost, now)) {
+    if (value(round.objective, now) <= round.worst) {
       cost = now;
-      return true;
+      return before;
     }
   }
   put_back(attempt, entered, std::move(before));
-  return false;
+  return {};
+}
+
+void UnitWorker::replace(const std::vector<RobotId>& robots, const std::vector<Route>& routes) {
+  remove(robots);
+  for (std::size_t i = 0; i < robots.size(); ++i) plan_.insert(robots[i], routes[i]);
 }
 
 std::vector<Route> UnitWorker::remove(const std::vector<RobotId>& robots) {

@@ -15,6 +15,8 @@ namespace sipplab {
 
 /// How many robots at most are planned again at once.
 inline constexpr std::size_t kUnitSizes[] = {1, 2, 4, 8, 16};
+/// A rule and a size.
+inline constexpr std::size_t kUnitWays = kUnitRules * std::size(kUnitSizes);
 
 /// What a plan costs, in ticks.
 struct UnitCost {
@@ -25,18 +27,17 @@ struct UnitCost {
 /// What is the same for all attempts of a round.
 struct UnitRound {
   const Objective& objective;
-  const Roulette<kUnitRules>& rules;
-  const Roulette<std::size(kUnitSizes)>& sizes;
-  UnitCost cost;  ///< of the plan
+  const Roulette<kUnitWays>& ways;
+  UnitCost cost;     ///< of the plan
+  double worst = 0;  ///< what a plan may cost by the objective, in ticks
 };
 
 /// Some robots, planned again in this order.
 struct UnitAttempt {
-  std::size_t rule = 0;
-  std::size_t size = 0;
+  std::size_t way = 0;
   std::vector<RobotId> robots;
   std::vector<Route> found;  ///< by position in `robots`; fewer if one found no route
-  bool is_accepted = false;  ///< all found a route, and the plan is no worse with these
+  bool is_accepted = false;  ///< all found a route, and the plan is good enough with these
   double gain = 0;           ///< by which the objective falls, in ticks; not below 0
   SearchStatistics work;
 };
@@ -54,13 +55,18 @@ class UnitWorker {
   /// attempt. REQUIRES: there are robots.
   UnitAttempt attempt(const UnitRound& round, Random random);
 
-  /// Puts the routes of an attempt into the plan, if they fit it and the plan becomes no worse than `cost`,
-  /// which is its cost; then the cost is updated. Otherwise the plan stays as it was and the answer is false.
-  /// REQUIRES: attempt.is_accepted; the robots have the routes that they had in the attempt.
-  bool take_over(const Objective& objective, const UnitAttempt& attempt, UnitCost& cost);
+  /// Puts the routes of an attempt into the plan, if they fit it and the plan costs no more than
+  /// `round.worst` with them; then `cost`, which is its cost, is updated and the routes before are the
+  /// answer. Otherwise the plan stays as it was and the answer is empty. REQUIRES: attempt.is_accepted; the
+  /// robots have the routes that they had in the attempt.
+  std::vector<Route> take_over(const UnitRound& round, const UnitAttempt& attempt, UnitCost& cost);
+
+  /// Gives robots other routes. REQUIRES: all fit together.
+  void replace(const std::vector<RobotId>& robots, const std::vector<Route>& routes);
 
  private:
-  UnitCost cost_with(const UnitCost& cost, const UnitAttempt& attempt, const std::vector<Route>& before) const;
+  UnitCost cost_with(const UnitCost& cost, const UnitAttempt& attempt,
+                     const std::vector<Route>& before) const;
   Tick latest_of_others() const;
   void plan_again(const UnitRound& round, const std::vector<Route>& before, UnitAttempt& attempt);
   std::vector<Route> remove(const std::vector<RobotId>& robots);
@@ -71,6 +77,8 @@ class UnitWorker {
   RouteSearch search_;
   UnitNeighbourhoods neighbourhoods_;
 };
+
+double value(const Objective& objective, const UnitCost& cost);
 
 /// Whether one is strictly better than the other.
 bool is_better(const Objective& objective, const UnitCost& one, const UnitCost& other);

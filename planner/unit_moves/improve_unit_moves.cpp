@@ -23,6 +23,18 @@ constexpr std::uint64_t kIterationsPerRound = 8;
 /// routes.
 constexpr std::uint64_t kExpansionsPerVisit = 8;
 
+/// By how much a plan may be worse than the best one, as a share of a robot's mean arrival: a way out of
+/// plans that no change of a few robots makes better. (Paper's warehouse, 192 robots, 20,000 iterations:
+/// 5,187 without, 5,038 with this, 5,179 with four times as much.)
+constexpr double kSlack = 1.0 / 6;
+
+/// Iterations for each robot in which the plan must become better by this share, or the search ends.
+constexpr std::uint64_t kIterationsPerLook = 40;
+constexpr double kLeastGain = 0.002;
+
+/// What it takes to put a robot out of the plan and in again, in expansions.
+constexpr std::uint64_t kExpansionsPerRobot = 100;
+
 /// Routes with the times that were found for visits.
 std::vector<Route> routes_of(const Visits& visits, const std::vector<std::int64_t>& ticks) {
   std::vector<Route> routes(visits.robots());
@@ -58,19 +70,21 @@ class UnitImprover {
     return retime(std::move(visits));
   }
 
-  void run() {
+  void run(std::uint64_t most_expansions) {
     const std::uint64_t& done = log_.iterations;
-    while (done < budget_.iterations) {
+    while (done < budget_.iterations && statistics_.expansions < most_expansions && !is_stale()) {
       log_.was_cut_short = limits_.is_over();
       if (log_.was_cut_short) break;
       play_round(std::min(kIterationsPerRound, budget_.iterations - done));
-      if (unretimed_ < kExpansionsPerVisit * visits_) continue;
+      if (journal_.size() > plan().robots()) roll_back();
+      if (unretimed_ < kExpansionsPerVisit * visits_ || !journal_.empty()) continue;
       retime(visits_of_plan());
       note_progress(cost_s());
     }
   }
 
-  UnitImprovement take(const Solution& given) {
+  UnitImprovement take() {
+    roll_back();
     Visits visits = visits_of_plan();
     visits.remove_round_trips();
     UnitSchedule schedule = unit_schedule(grid_, visits, reach_cells_, unit_move_s_);
@@ -80,11 +94,20 @@ class UnitImprover {
     note_progress({flowtime_s(result.solution), makespan_s(result.solution)});
     result.log = std::move(log_);
     result.statistics = statistics_;
-    (void)given;
     return result;
   }
 
  private:
+  /// Whether the last iterations gained next to nothing.
+  bool is_stale() {
+    if (log_.iterations < next_look_) return false;
+    const double now = value(options_.objective, best_);
+    const bool stale = next_look_ > 0 && now > (1 - kLeastGain) * value_at_look_;
+    next_look_ = log_.iterations + kIterationsPerLook * plan().robots();
+    value_at_look_ = now;
+    return stale;
+  }
+
   const Timetable& plan() const { return workers_.front()->plan(); }
 
   PlanCost cost_s() const {
@@ -120,7 +143,9 @@ class UnitImprover {
     for_each_in_parallel(workers_.size(), workers_.size(), [&](std::size_t, std::size_t i) {
       workers_[i] = std::make_unique<UnitWorker>(moves_, distances_, routes);
     });
-    cost_ = workers_.front()->cost();
+    best_ = cost_ = workers_.front()->cost();
+    slack_ = kSlack * value(options_.objective, best_) / static_cast<double>(plan().robots());
+    journal_.clear();
     visits_ = visits.size();
     unretimed_ = 0;
     return true;
@@ -129,7 +154,7 @@ class UnitImprover {
   /// Tries some neighbourhoods of the same plan, then takes over what makes it no worse, in the order of
   /// their numbers, so that it does not matter which thread tried which.
   void play_round(std::uint64_t iterations) {
-    const UnitRound round{options_.objective, rules_, sizes_, cost_};
+    const UnitRound round{options_.objective, ways_, cost_, value(options_.objective, best_) + slack_};
     std::vector<UnitAttempt> attempts(iterations);
     for_each_in_parallel(workers_.size(), attempts.size(), [&](std::size_t worker, std::size_t i) {
       attempts[i] = workers_[worker]->attempt(round, Random(stream_ + log_.iterations + i));
@@ -139,27 +164,43 @@ class UnitImprover {
       ++log_.iterations;
       statistics_ += attempt.work;
       unretimed_ += attempt.work.expansions;
-      const double gain = attempt.gain / static_cast<double>(attempt.work.expansions + 1);
-      rules_.learn(attempt.rule, gain);
-      sizes_.learn(attempt.size, gain);
-      if (attempt.is_accepted) take_over(attempt, changed);
+      ways_.learn(attempt.way, attempt.gain,
+                  static_cast<double>(attempt.work.expansions + kExpansionsPerRobot * attempt.robots.size()));
+      if (attempt.is_accepted) take_over(round, attempt, changed);
     }
   }
 
-  void take_over(const UnitAttempt& attempt, std::vector<RobotId>& changed) {
+  void take_over(const UnitRound& round, const UnitAttempt& attempt, std::vector<RobotId>& changed) {
     const auto is_changed = [&](RobotId robot) {
       return std::find(changed.begin(), changed.end(), robot) != changed.end();
     };
     if (std::any_of(attempt.robots.begin(), attempt.robots.end(), is_changed)) return;
-    const UnitCost before = cost_;
-    if (!workers_.front()->take_over(options_.objective, attempt, cost_)) return;
-    for (std::size_t i = 1; i < workers_.size(); ++i) {
-      UnitCost same = before;
-      workers_[i]->take_over(options_.objective, attempt, same);
-    }
+    std::vector<Route> before = workers_.front()->take_over(round, attempt, cost_);
+    if (before.empty()) return;
+    for (std::size_t i = 1; i < workers_.size(); ++i) workers_[i]->replace(attempt.robots, attempt.found);
     changed.insert(changed.end(), attempt.robots.begin(), attempt.robots.end());
-    log_.improvements += is_better(options_.objective, cost_, before);
+    if (is_better(options_.objective, cost_, best_)) {
+      best_ = cost_;
+      journal_.clear();
+      ++log_.improvements;
+    } else {
+      journal_.push_back({attempt.robots, std::move(before)});
+    }
   }
+
+  /// Back to the best plan.
+  void roll_back() {
+    for (; !journal_.empty(); journal_.pop_back()) {
+      for (const auto& worker : workers_) worker->replace(journal_.back().robots, journal_.back().routes);
+    }
+    cost_ = best_;
+  }
+
+  /// The routes of some robots before a change.
+  struct Change {
+    std::vector<RobotId> robots;
+    std::vector<Route> routes;
+  };
 
   const Instance& instance_;
   const PlannerOptions& options_;
@@ -173,9 +214,13 @@ class UnitImprover {
   UnitMoves moves_;
   SharedDistances& distances_;
   std::vector<std::unique_ptr<UnitWorker>> workers_;  ///< the same plan, once for each thread
-  Roulette<kUnitRules> rules_;
-  Roulette<std::size(kUnitSizes)> sizes_;
+  Roulette<kUnitWays> ways_;
   UnitCost cost_;
+  UnitCost best_;
+  double slack_ = 0;             ///< by which a plan may be worse than the best one, in ticks
+  std::uint64_t next_look_ = 0;  ///< iterations
+  double value_at_look_ = 0;     ///< what the best plan cost at the last look
+  std::vector<Change> journal_;  ///< from the best plan to this one
   std::size_t visits_ = 0;
   std::uint64_t unretimed_ = 0;  ///< expansions since the last times for all
   ImprovementLog log_;
@@ -185,7 +230,8 @@ class UnitImprover {
 }  // namespace
 
 std::optional<UnitImprovement> improve_unit_moves(const Instance& instance, const Solution& given,
-                                                  const PlannerOptions& options) {
+                                                  const PlannerOptions& options,
+                                                  std::uint64_t most_expansions) {
   if (instance.agents.empty() || find_beyond_complete(instance, options.rules)) return std::nullopt;
   const FreeGrid grid(instance.map);
   std::optional<Visits> visits = unit_visits(instance, grid, given);
@@ -200,8 +246,8 @@ std::optional<UnitImprovement> improve_unit_moves(const Instance& instance, cons
   UnitImprover improver(instance, options, grid, distances);
   const PlanCost before{flowtime_s(given), makespan_s(given)};
   if (!improver.begin(std::move(*visits), before)) return std::nullopt;
-  improver.run();
-  UnitImprovement result = improver.take(given);
+  improver.run(most_expansions);
+  UnitImprovement result = improver.take();
   if (is_better(options.objective, before, result.log.curve.back().cost)) return std::nullopt;
   return result;
 }

@@ -1,6 +1,6 @@
 // Which robots give up their routes, to be planned again: small sets of robots that are in each other's way.
-// After Li, Chen, Harabor, Stuckey and Koenig, "Anytime Multi-Agent Path Finding via Large Neighborhood Search",
-// IJCAI 2021. Nothing here takes time in proportion to the number of robots.
+// After Li, Chen, Harabor, Stuckey and Koenig, "Anytime Multi-Agent Path Finding via Large Neighborhood
+// Search", IJCAI 2021. Nothing here takes time in proportion to the number of robots.
 #pragma once
 
 #include <cstddef>

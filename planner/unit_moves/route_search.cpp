@@ -33,7 +33,8 @@ std::optional<Route> RouteSearch::find(RobotId robot, const Timetable& others, T
   const std::uint64_t last = expansions_ + most_expansions;
   for (NodeId id = pop(); id != kNoNode; id = pop()) {
     const Node& node = nodes_[id];
-    if (best_[gaps_[node.cell] + node.gap] != id) continue;  // an earlier arrival was found after this was queued
+    if (best_[gaps_[node.cell] + node.gap] != id)
+      continue;  // an earlier arrival was found after this was queued
     if (node.cell == goal && node.gap == at_goal.size()) return route_to(id);
     if (++expansions_ > last) return std::nullopt;
     expand(id, others, distances, latest);
@@ -49,7 +50,8 @@ void RouteSearch::begin() {
   ++search_;
 }
 
-void RouteSearch::expand(NodeId id, const Timetable& others, SharedDistances::OfRobot& distances, Tick latest) {
+void RouteSearch::expand(NodeId id, const Timetable& others, SharedDistances::OfRobot& distances,
+                         Tick latest) {
   const Node from = nodes_[id];
   const auto here = others.stays(from.cell);
   for (Direction direction = 0; direction < kDirections; ++direction) {

@@ -1,5 +1,5 @@
-// The fastest route of one robot by unit moves around all others, in continuous time: SIPP ([PL11]: Phillips and
-// Likhachev, ICRA 2011) over cells and the gaps between the stays of others there.
+// The fastest route of one robot by unit moves around all others, in continuous time: SIPP ([PL11]: Phillips
+// and Likhachev, ICRA 2011) over cells and the gaps between the stays of others there.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ namespace sipplab {
 /// Distances to the goals of all robots, for several threads.
 class SharedDistances {
  public:
-  /// The grid must outlive this. REQUIRES: each goal can be reached from its start. O(robots x cells) at worst.
+  /// The grid must outlive this. REQUIRES: each goal can be reached from its start. O(robots x cells) at
+  /// worst.
   SharedDistances(const FreeGrid& grid, const std::vector<CellId>& starts, const std::vector<CellId>& goals);
 
   /// The distances of one robot, for one thread at a time.
@@ -54,8 +55,8 @@ class RouteSearch {
   /// Both must outlive this.
   RouteSearch(const UnitMoves& moves, SharedDistances& distances);
 
-  /// A route of a robot that has none, around all others, that arrives at `latest` or before. The earliest but
-  /// for kBucketTicks; none also if more than `most_expansions` would be needed.
+  /// A route of a robot that has none, around all others, that arrives at `latest` or before. The earliest
+  /// but for kBucketTicks; none also if more than `most_expansions` would be needed.
   std::optional<Route> find(RobotId robot, const Timetable& others, Tick latest,
                             std::uint64_t most_expansions);
 
@@ -94,7 +95,7 @@ class RouteSearch {
   std::vector<std::uint32_t> gaps_;
   std::vector<std::uint32_t> reached_in_;
   std::uint32_t search_ = 0;
-  std::vector<NodeId> best_;  ///< by gap of a reached cell: the earliest node
+  std::vector<NodeId> best_;               ///< by gap of a reached cell: the earliest node
   std::vector<std::vector<NodeId>> open_;  ///< by (f - least_) / kBucketTicks
   Tick least_ = 0;
   std::size_t bucket_ = 0;  ///< the first that is not empty, or before it

@@ -1,5 +1,5 @@
-// Unit moves between the free cells of a map, by direction, and how closely robots follow each other, in whole
-// parts of a move.
+// Unit moves between the free cells of a map, by direction, and how closely robots follow each other, in
+// whole parts of a move.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Improvement of plans of unit moves: what it gives is right for disks, never worse than what it was given, and
-// depends on no clock; its search is exact.
+// Improvement of plans of unit moves: what it gives is right for disks, never worse than what it was given,
+// and depends on no clock; its search is exact.
 #include <rapidcheck.h>
 
 #include <algorithm>
@@ -61,7 +61,8 @@ UnitImprovement improved(const Planned& planned) {
 /// Routes of a plan of unit moves, at the earliest ticks.
 struct Routes {
   Routes(const Instance& instance, const Solution& solution)
-      : grid(instance.map), moves(grid, std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0)) {
+      : grid(instance.map),
+        moves(grid, std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0)) {
     const std::optional<Visits> visits = unit_visits(instance, grid, solution);
     RC_ASSERT(visits.has_value());
     const std::vector<std::int64_t> ticks =
