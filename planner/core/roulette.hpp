@@ -52,9 +52,9 @@ class Roulette {
 
  private:
   /// What the past counts after each draw of a way.
-  static constexpr double kMemory = 0.97;
+  static constexpr double kMemory = 0.99;
   /// Least weight, the greatest being 1: no way is given up for good.
-  static constexpr double kLeastWeight = 0.05;
+  static constexpr double kLeastWeight = 0.1;
 
   std::array<double, kWays> gain_{};
   std::array<double, kWays> work_{};

@@ -29,11 +29,12 @@ constexpr std::uint64_t kFirstPlanSteps = 10'000;
 /// ... if the complete planner has given a plan: ejection is worth its time where few robots fail.
 constexpr std::uint64_t kFewEjections = 8;
 constexpr std::size_t kRobotsPerEjection = 40;
-/// Expansions for improvement by unit moves, for each one that the other plan took: they take about a tenth
-/// of the time. The plan that is cheaper then is improved further.
+/// Expansions for improvement by unit moves before the two plans are compared: for each one that the other
+/// plan took, which took ten times as long, and at least for each robot.
 constexpr std::uint64_t kUnitExpansions = 10;
+constexpr std::uint64_t kUnitExpansionsPerRobot = 4000;
 /// Share of the time limit for that plan.
-constexpr double kShareOfFirstPlan = 0.1;
+constexpr double kShareOfFirstPlan = 0.5;
 /// Share of the time limit in which a better plan must have been found. The rest is for
 /// improvement, which a plan of the complete planner needs more than any other.
 constexpr double kShareBeforeImprovement = 0.15;
@@ -163,7 +164,8 @@ class BestPlan {
     budget.seconds = std::min(budget.seconds, time_left_s() * kShareBeforeImprovement);
     improving.improve = budget;
     begun_ = improve_unit_moves(instance_, fallback_.solution, improving,
-                                kUnitExpansions * planned_.statistics.expansions);
+                                std::max(kUnitExpansions * planned_.statistics.expansions,
+                                         kUnitExpansionsPerRobot * instance_.agents.size()));
     const Solution& improved = begun_ ? begun_->solution : fallback_.solution;
     const auto cost_of = [](const Solution& plan) { return PlanCost{flowtime_s(plan), makespan_s(plan)}; };
     return is_better(options_.objective, cost_of(improved), cost_of(planned_.solution));

@@ -3,7 +3,8 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <numeric>
 #include <optional>
 
 #include "planner/complete/complete_planner.hpp"
@@ -15,6 +16,7 @@
 #include "planner/unit_moves/route_search.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
+#include "property_tests/support/pebble_search.hpp"
 #include "property_tests/support/property.hpp"
 
 namespace sipplab {
@@ -26,6 +28,33 @@ namespace {
 /// Steps of LaCAM: far more than the cases here take.
 constexpr std::uint64_t kMostSteps = 20'000;
 
+/// Robots on up to half of the cells of a small map, which drive anywhere: most first plans can be improved.
+PlanCase make_crowd(std::uint64_t seed) {
+  Random random(seed);
+  constexpr std::int32_t kLeastSide = 4;
+  constexpr std::uint64_t kSides = 6;
+  PlanCase plan_case;
+  GridMap& map = plan_case.instance.map;
+  map = GridMap(kLeastSide + static_cast<std::int32_t>(random.below(kSides)),
+                kLeastSide + static_cast<std::int32_t>(random.below(kSides)));
+  std::vector<std::size_t> starts(map.cell_count());
+  std::iota(starts.begin(), starts.end(), std::size_t{0});
+  std::vector<std::size_t> goals = starts;
+  random.shuffle(starts);
+  random.shuffle(goals);
+  constexpr std::array<double, 3> kRadii = {0.5, 0.4, 0.25};
+  const double radius_cells = kRadii[random.below(kRadii.size())];
+  const std::size_t robots = 2 + random.below(map.cell_count() / 2 - 1);
+  for (std::size_t i = 0; i < robots; ++i) {
+    Agent agent;
+    agent.start = map.cell(starts[i]);
+    agent.goal = map.cell(goals[i]);
+    agent.radius_cells = radius_cells;
+    plan_case.instance.agents.push_back(agent);
+  }
+  return plan_case;
+}
+
 struct Planned {
   PlanCase plan_case;
   CompleteResult result;
@@ -34,7 +63,11 @@ struct Planned {
 
 /// A case that the complete planner solved, and a few iterations for it.
 Planned any_planned() {
-  Planned planned{within_complete_model(*any_case()), {}, {}};
+  const bool is_crowd = *rc::gen::arbitrary<bool>();
+  Planned planned{
+      is_crowd ? make_crowd(*rc::gen::arbitrary<std::uint64_t>()) : within_complete_model(*any_case()),
+      {},
+      {}};
   classify_case(planned.plan_case);
   note_case(planned.plan_case);
   planned.options = planned.plan_case.options;
