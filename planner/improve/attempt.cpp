@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <cstdlib>
 
 #include "sipplab/error.hpp"
 
@@ -86,10 +87,12 @@ Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random) 
   Removal removal(attempt.robots, plan);
   for (std::size_t i = 0; i < attempt.robots.size(); ++i) {
     SearchLimits limits = round.limits;
+    static const char* cap = getenv("CAP");
+    if (cap) limits.max_expansions = strtoull(cap, nullptr, 10);
     limits.latest_arrival_s = latest_arrival_s(round, plan, attempt.robots, removal, i);
     Expected<Trajectory, PlanFailure> found = plan.find(attempt.robots[i], limits, attempt.work);
     if (!found) {
-      attempt.was_cut_short = found.error() != PlanFailure::kNoPath;
+      attempt.was_cut_short = found.error() == PlanFailure::kTimeLimit;
       break;
     }
     plan.insert(attempt.robots[i], *found);
