@@ -44,7 +44,8 @@ class GoalDistances {
   struct Search {
     std::vector<std::uint8_t> codes;  ///< two bits a cell: kUnseen, or 1 + distance % 3
     std::vector<CellId> layer;        ///< the cells seen last, all at `depth`
-    std::vector<CellId> next_layer;   ///< memory for the next one: robots may be asked for by different threads
+    std::vector<CellId>
+        next_layer;  ///< memory for the next one: robots may be asked for by different threads
     std::uint32_t depth = 0;
 
     unsigned code(CellId cell) const {

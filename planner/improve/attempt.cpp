@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <cstdlib>
 
 #include "sipplab/error.hpp"
 
@@ -87,12 +86,10 @@ Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random) 
   Removal removal(attempt.robots, plan);
   for (std::size_t i = 0; i < attempt.robots.size(); ++i) {
     SearchLimits limits = round.limits;
-    static const char* cap = getenv("CAP");
-    if (cap) limits.max_expansions = strtoull(cap, nullptr, 10);
     limits.latest_arrival_s = latest_arrival_s(round, plan, attempt.robots, removal, i);
     Expected<Trajectory, PlanFailure> found = plan.find(attempt.robots[i], limits, attempt.work);
     if (!found) {
-      attempt.was_cut_short = found.error() == PlanFailure::kTimeLimit;
+      attempt.was_cut_short = found.error() != PlanFailure::kNoPath;
       break;
     }
     plan.insert(attempt.robots[i], *found);

@@ -12,9 +12,10 @@ namespace sipplab {
 ///      milliseconds, though a poor one;
 ///  (2) the method of the options;
 ///  (3) the same with each longer start-safe interval;
-///  (4) ejection, with the first interval and then with the longer ones;
-/// of (2) to (4) each until it gives a plan, which is then taken instead, or has had its
-/// restarts; if none does and (1) was cut short, the complete planner again. Then the plan is
+///  (4) ejection, with the first interval and, if (1) gave no plan, with the longer ones;
+/// of (2) to (4) each until it gives a plan or has had its restarts; if none does and (1) was cut short, the
+/// complete planner again. If there are two plans, that of (1) is improved by unit moves as long as the other one
+/// took, and the cheaper one is kept: it may keep starts safe for a shorter time. Then the plan is
 /// improved until a limit is reached. If options.longer_ssi_s is empty, kLongerSsiS are tried.
 /// Steps are limited by counts, and by shares of options.time_limit_s, which is for everything: the result is
 /// repeatable if these are not used up and the iterations of options.improve end before the time limit.

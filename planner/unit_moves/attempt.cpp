@@ -10,7 +10,7 @@ namespace sipplab {
 namespace {
 
 /// Expansions after which a search for one robot is given up.
-constexpr std::uint64_t kMostExpansions = 20'000;
+constexpr std::uint64_t kMostExpansions = 300'000;
 
 PlanCost in_ticks(const UnitCost& cost) {
   return {static_cast<double>(cost.flowtime), static_cast<double>(cost.makespan)};
