@@ -62,6 +62,10 @@ class UnitImprover {
         distances_(distances) {
     limits_.deadline = deadline_after(begin_, budget_.seconds);
     limits_.stop = options.stop;
+    for (RobotId robot = 0; robot < instance.agents.size(); ++robot) {
+      least_.flowtime += distances.least_arrival(robot);
+      least_.makespan = std::max(least_.makespan, distances.least_arrival(robot));
+    }
   }
 
   /// False if there are no times for it.
@@ -72,7 +76,8 @@ class UnitImprover {
 
   void run(std::uint64_t most_expansions) {
     const std::uint64_t& done = log_.iterations;
-    while (done < budget_.iterations && statistics_.expansions < most_expansions && !is_stale()) {
+    while (done < budget_.iterations && statistics_.expansions < most_expansions && !is_optimal() &&
+           !is_stale()) {
       log_.was_cut_short = limits_.is_over();
       if (log_.was_cut_short) break;
       play_round(std::min(kIterationsPerRound, budget_.iterations - done));
@@ -98,6 +103,9 @@ class UnitImprover {
   }
 
  private:
+  /// Whether all robots arrive as early as alone.
+  bool is_optimal() const { return best_.flowtime <= least_.flowtime && best_.makespan <= least_.makespan; }
+
   /// Whether the last iterations gained next to nothing.
   bool is_stale() {
     if (log_.iterations < next_look_) return false;
@@ -217,6 +225,7 @@ class UnitImprover {
   Roulette<kUnitWays> ways_;
   UnitCost cost_;
   UnitCost best_;
+  UnitCost least_;               ///< of robots that are alone
   double slack_ = 0;             ///< by which a plan may be worse than the best one, in ticks
   std::uint64_t next_look_ = 0;  ///< iterations
   double value_at_look_ = 0;     ///< what the best plan cost at the last look
