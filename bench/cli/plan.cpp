@@ -18,6 +18,7 @@
 #include "planner/core/clock.hpp"
 #include "planner/io/text_file.hpp"
 #include "planner/retime/retime.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "sipplab/instance_io.hpp"
 #include "sipplab/solution_io.hpp"
 #include "sipplab/solve.hpp"
@@ -105,22 +106,24 @@ std::string gap_text(std::string_view what, double cost_s, double bound_s) {
                      kPercent * gap(cost_s, bound_s));
 }
 
-std::string improvement_text(const ImprovementLog& log, double ssi_s) {
+std::string improvement_text(const ImprovementLog& log, double ssi_kept_s) {
+  constexpr double kPercent = 100;
   const std::vector<ProgressPoint>& curve = log.curve;
   std::string text = fmt::format("improved    {} times in {} iterations, for {}\n", log.improvements,
                                  log.iterations, format_objective(log.objective));
   text += gap_text("flowtime", curve.back().cost.flowtime_s, log.bound.flowtime_s);
   text += gap_text("makespan", curve.back().cost.makespan_s, log.bound.makespan_s);
-  text += log.keeps_guarantee
-              ? fmt::format("guarantee   start-safe interval {} s, in the final order\n", format_ssi(ssi_s))
-              : "guarantee   no collisions; start-safe intervals in no order\n";
-  text += "curve       seconds  iteration    flowtime    makespan\n";
+  text += log.keeps_guarantee ? fmt::format("guarantee   start-safe interval {} s, in the final order\n",
+                                            format_ssi(ssi_kept_s))
+                              : "guarantee   no collisions; start-safe intervals in no order\n";
+  text += "curve       seconds  iteration    flowtime    makespan    gap %\n";
   const std::size_t stride = (curve.size() + kCurveLines - 2) / (kCurveLines - 1);
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (i % stride != 0 && i + 1 < curve.size()) continue;
     const ProgressPoint& point = curve[i];
-    text += fmt::format("            {:7.3f} {:10} {:11.3f} {:11.3f}\n", point.seconds, point.iteration,
-                        point.cost.flowtime_s, point.cost.makespan_s);
+    text += fmt::format("            {:7.3f} {:10} {:11.3f} {:11.3f} {:8.1f}\n", point.seconds,
+                        point.iteration, point.cost.flowtime_s, point.cost.makespan_s,
+                        kPercent * gap(point.cost.flowtime_s, log.bound.flowtime_s));
   }
   return text;
 }
@@ -140,7 +143,7 @@ std::string summary(const SolutionDocument& document, const SolveResult& outcome
   text += fmt::format("tries       {}\nexpansions  {}\nplanning    {:.3f} s\n", document.tries,
                       document.expansions, document.planning_seconds);
   text += steps_text(outcome.steps) + ejections_text(document.ejections, instance);
-  if (document.improvement) text += improvement_text(*document.improvement, outcome.plan.ssi_s);
+  if (document.improvement) text += improvement_text(*document.improvement, outcome.ssi_kept_s());
   return text;
 }
 
@@ -188,11 +191,8 @@ Expected<SolveResult, std::string> given_plan(const PlanArguments& arguments, co
     }
   }
   outcome.plan.planning_seconds = seconds_since(begin);
-  if (options.improve) {
-    PlannerOptions improving = options;
-    improving.ssi_s = 0;  // it guarantees nothing of starts
-    outcome.improvement = improve(instance, outcome.plan.solution, outcome.plan.order(), improving);
-  }
+  // It guarantees nothing of starts.
+  if (options.improve) outcome.improvement = improve_in_stages(instance, outcome.plan, options);
   return outcome;
 }
 

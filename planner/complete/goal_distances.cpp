@@ -23,17 +23,18 @@ std::optional<std::uint32_t> GoalDistances::first_distance(RobotId robot, CellId
 }
 
 bool GoalDistances::grow(Search& search) {
-  next_layer_.clear();
+  std::vector<CellId>& next_layer = search.next_layer;
+  next_layer.clear();
   const unsigned code = 1 + (search.depth + 1) % 3;
   for (const CellId cell : search.layer) {
     for (const CellId next : grid_.neighbours(cell)) {
       if (search.code(next) != kUnseen) continue;
       search.set_code(next, code);
-      next_layer_.push_back(next);
+      next_layer.push_back(next);
     }
   }
-  if (next_layer_.empty()) return false;
-  search.layer.assign(next_layer_.begin(), next_layer_.end());
+  if (next_layer.empty()) return false;
+  std::swap(search.layer, next_layer);
   ++search.depth;
   return true;
 }

@@ -44,6 +44,8 @@ class GoalDistances {
   struct Search {
     std::vector<std::uint8_t> codes;  ///< two bits a cell: kUnseen, or 1 + distance % 3
     std::vector<CellId> layer;        ///< the cells seen last, all at `depth`
+    std::vector<CellId>
+        next_layer;  ///< memory for the next one: robots may be asked for by different threads
     std::uint32_t depth = 0;
 
     unsigned code(CellId cell) const {
@@ -61,7 +63,6 @@ class GoalDistances {
   const FreeGrid& grid_;
   std::vector<CellId> goals_;
   std::vector<Search> searches_;
-  std::vector<CellId> next_layer_;
 };
 
 }  // namespace sipplab

@@ -47,7 +47,7 @@ double latest_arrival_s(const Round& round, const PartialPlan& plan, const std::
     left_s += removal.before(i).arrival_s();
     if (i == planned) continue;
     const double arrival_s =
-        i < planned ? plan.trajectory(robots[i]).arrival_s() : round.static_times_s[robots[i]];
+        i < planned ? plan.trajectory(robots[i]).arrival_s() : round.fastest_s[robots[i]];
     left_s -= arrival_s;
     least_makespan_s = std::max(least_makespan_s, arrival_s);
   }
@@ -77,10 +77,10 @@ PlanCost cost_of(const Instance& instance, const PartialPlan& plan) {
 
 Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random) {
   Attempt attempt;
-  attempt.rule = round.roulette.draw(random);
+  attempt.rule = static_cast<RemovalRule>(round.roulette.draw(random));
   const std::size_t most = kFewestRemoved + random.below(kMostRemoved - kFewestRemoved + 1);
   attempt.robots = choose_neighbourhood(
-      attempt.rule, {round.instance, plan, round.static_times_s, round.fastest_paths}, most, random);
+      attempt.rule, {round.instance, plan, round.fastest_s, round.fastest_paths}, most, random);
   random.shuffle(attempt.robots);
 
   Removal removal(attempt.robots, plan);

@@ -1,7 +1,9 @@
 #include "sipplab/improve.hpp"
 
 #include <algorithm>
+#include <future>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -18,6 +20,9 @@ namespace {
 /// busy, few enough that not many are tried on a plan that is no longer the best. (Trials on the
 /// paper's warehouse: one or two of ten iterations gain something.)
 constexpr std::uint64_t kIterationsPerRound = 4;
+
+/// Share of the flowtime that a pass of tightening must gain for another one.
+constexpr double kLeastTightening = 0.002;
 
 double length_cells(const Trajectory& trajectory) {
   double cells = 0;
@@ -43,8 +48,10 @@ class LargeNeighbourhoodSearch {
     fill(given, order, options.ssi_s, planners);
     if (!plan().order()) fill(given, order, 0, planners);
     cost_ = cost_of(instance_, plan());
-    find_bounds(planners);
     note_progress(0);
+    if (budget_.iterations > 0) tighten_all();
+    for (std::size_t i = 1; i < planners.size(); ++i) copy_to(*plans_[i]);
+    find_fastest_ways(planners);
   }
 
   ImproveResult run() {
@@ -55,8 +62,12 @@ class LargeNeighbourhoodSearch {
       play_round(std::min(kIterationsPerRound, budget_.iterations - done));
     }
     note_progress(done);
+    result_.log.bound = bound_.get();
     result_.solution = plan().solution();
-    if (result_.log.keeps_guarantee) result_.order = plan().order();
+    if (result_.log.keeps_guarantee) {
+      result_.order = plan().order();
+      result_.ssi_kept_s = options_.ssi_s;
+    }
     return std::move(result_);
   }
 
@@ -67,34 +78,69 @@ class LargeNeighbourhoodSearch {
     result_.log.keeps_guarantee = ssi_s == options_.ssi_s;
     plans_.clear();
     for (SingleAgentPlanner* planner : planners) {
-      PartialPlan& plan = *plans_.emplace_back(std::make_unique<PartialPlan>(instance_, ssi_s, *planner));
-      for (const AgentIndex agent : order) plan.insert(agent, given.trajectories[agent]);
+      plans_.push_back(std::make_unique<PartialPlan>(instance_, ssi_s, *planner));
+    }
+    for (const AgentIndex agent : order) plans_.front()->insert(agent, given.trajectories[agent]);
+  }
+
+  void copy_to(PartialPlan& copy) const {
+    for (AgentIndex agent = 0; agent < instance_.agents.size(); ++agent) {
+      copy.insert(agent, plan().trajectory(agent));
     }
   }
 
-  /// The fastest path of each robot alone, and the lower bounds that follow from them.
-  void find_bounds(Planners planners) {
+  /// Lets every robot cut corners and go as early as the others let it, those that stand longest first, as
+  /// long as that gains something.
+  void tighten_all() {
+    std::vector<AgentIndex> agents(instance_.agents.size());
+    std::iota(agents.begin(), agents.end(), AgentIndex{0});
+    std::vector<double> standing_s(agents.size());
+    double before_s = kForever;
+    while (!limits_.is_over() && before_s - cost_.flowtime_s > kLeastTightening * cost_.flowtime_s) {
+      before_s = cost_.flowtime_s;
+      for (const AgentIndex agent : agents) {
+        const Trajectory& trajectory = plan().trajectory(agent);
+        standing_s[agent] =
+            trajectory.arrival_s() - length_cells(trajectory) / instance_.agents[agent].speed_cells_per_s;
+      }
+      std::stable_sort(agents.begin(), agents.end(),
+                       [&](AgentIndex a, AgentIndex b) { return standing_s[a] > standing_s[b]; });
+      for (const AgentIndex agent : agents) {
+        if (limits_.is_over()) break;
+        plans_.front()->tighten(agent);
+      }
+      cost_ = cost_of(instance_, plan());
+      if (cost_.flowtime_s < before_s) note_progress(0);
+    }
+  }
+
+  /// The fastest path of each robot alone; how early any path could be is found out meanwhile.
+  void find_fastest_ways(Planners planners) {
     std::vector<std::unique_ptr<PartialPlan>> nobody;  // plans without robots, one for each thread
     for (SingleAgentPlanner* planner : planners) {
       nobody.push_back(std::make_unique<PartialPlan>(instance_, 0, *planner));
     }
     fastest_paths_.resize(instance_.agents.size());
+    fastest_s_.resize(instance_.agents.size());
     std::vector<double> solo_cells(instance_.agents.size());
     std::vector<SearchStatistics> work(planners.size());
     for_each_in_parallel(planners.size(), fastest_paths_.size(), [&](std::size_t worker, AgentIndex agent) {
       Expected<Trajectory, PlanFailure> alone = nobody[worker]->find(agent, {}, work[worker]);
       fastest_paths_[agent] = alone ? std::move(*alone) : plan().trajectory(agent);
+      fastest_s_[agent] = fastest_paths_[agent].arrival_s();
       solo_cells[agent] = length_cells(fastest_paths_[agent]);
     });
     for (const SearchStatistics& done : work) result_.statistics += done;
-    static_times_s_ = static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells,
-                                     static_cast<unsigned>(planners.size()));
-    result_.log.bound = lower_bound(static_times_s_);
+    bound_ = std::async(std::launch::async, [this, solo_cells = std::move(solo_cells)] {
+      return lower_bound(
+          static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells, limits_));
+    });
   }
 
+  /// Whether all robots are as fast as alone.
   bool is_optimal() const {
-    return cost_.flowtime_s <= result_.log.bound.flowtime_s &&
-           cost_.makespan_s <= result_.log.bound.makespan_s;
+    const LowerBound fastest = lower_bound(fastest_s_);
+    return cost_.flowtime_s <= fastest.flowtime_s && cost_.makespan_s <= fastest.makespan_s;
   }
 
   void note_progress(std::uint64_t iteration) {
@@ -104,8 +150,7 @@ class LargeNeighbourhoodSearch {
   /// Tries some neighbourhoods of the same plan, then takes over those that make it better, in
   /// the order of their numbers, so that it does not matter which thread tried which.
   void play_round(std::uint64_t iterations) {
-    const Round round{instance_, options_.objective, roulette_, static_times_s_, fastest_paths_, cost_,
-                      limits_};
+    const Round round{instance_, options_.objective, roulette_, fastest_s_, fastest_paths_, cost_, limits_};
     std::vector<Attempt> attempts(iterations);
     for_each_in_parallel(plans_.size(), attempts.size(), [&](std::size_t worker, std::size_t i) {
       attempts[i] = try_neighbourhood(round, *plans_[worker], Random(stream_ + result_.log.iterations + i));
@@ -117,7 +162,8 @@ class LargeNeighbourhoodSearch {
       if (attempt.was_cut_short) break;
       ++result_.log.iterations;
       result_.statistics += attempt.work;
-      roulette_.learn(attempt.rule, attempt.gain / static_cast<double>(attempt.work.expansions + 1));
+      roulette_.learn(static_cast<std::size_t>(attempt.rule), attempt.gain,
+                      static_cast<double>(attempt.work.expansions + 1));
       if (attempt.is_better) take(round, attempt, changed);
     }
   }
@@ -143,7 +189,8 @@ class LargeNeighbourhoodSearch {
   SearchLimits limits_;
   std::vector<std::unique_ptr<PartialPlan>> plans_;  ///< the same plan, once for each thread
   std::vector<Trajectory> fastest_paths_;            ///< by robot
-  std::vector<double> static_times_s_;               ///< by robot
+  std::vector<double> fastest_s_;                    ///< by robot: arrivals on these
+  std::future<LowerBound> bound_;
   RuleRoulette roulette_;
   PlanCost cost_;
   ImproveResult result_;

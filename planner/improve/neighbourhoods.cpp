@@ -7,13 +7,6 @@
 namespace sipplab {
 namespace {
 
-/// Share of the last gain in a rule's weight.
-constexpr double kLearningRate = 0.02;
-/// Least weight, the greatest being 1: no rule is given up for good.
-constexpr double kLeastWeight = 0.05;
-/// Factor by which the greatest gain decays with each iteration.
-constexpr double kScaleDecay = 0.999;
-
 /// Seconds added to every robot's delay, so that robots without delay are drawn, too: they
 /// may block others.
 constexpr double kDelayFloorS = 0.25;
@@ -25,24 +18,10 @@ constexpr std::size_t kLastOnes = 5;
 constexpr double kWindowCells = 3;
 constexpr double kWindowS = 6;
 
-/// Draws an index by weight. REQUIRES: some weight is above 0.
-template <class Weights>
-std::size_t draw_by(const Weights& weights, Random& random) {
-  const double sum = std::accumulate(std::begin(weights), std::end(weights), 0.0);
-  double left = random.unit() * sum;
-  std::size_t drawn = 0;
-  for (const double weight : weights) {
-    left -= weight;
-    if (left < 0) break;
-    ++drawn;
-  }
-  return std::min(drawn, std::size(weights) - 1);
-}
-
 std::vector<double> delay_weights(const Neighbours& among) {
   std::vector<double> weights;
   for (AgentIndex agent = 0; agent < among.instance.agents.size(); ++agent) {
-    const double delay_s = among.plan.trajectory(agent).arrival_s() - among.static_times_s[agent];
+    const double delay_s = among.plan.trajectory(agent).arrival_s() - among.fastest_s[agent];
     weights.push_back(std::max(delay_s, 0.0) + kDelayFloorS);
   }
   return weights;
@@ -153,17 +132,6 @@ std::vector<AgentIndex> choose_neighbourhood(RemovalRule rule, const Neighbours&
   }
   add_delayed(chosen, among, most, random);
   return chosen;
-}
-
-RemovalRule RuleRoulette::draw(Random& random) const {
-  return static_cast<RemovalRule>(draw_by(weights_, random));
-}
-
-void RuleRoulette::learn(RemovalRule rule, double gain) {
-  scale_ = std::max(scale_ * kScaleDecay, gain);
-  double& weight = weights_[static_cast<std::size_t>(rule)];
-  const double share = scale_ > 0 ? gain / scale_ : 0;
-  weight = std::max(weight * (1 - kLearningRate) + share * kLearningRate, kLeastWeight);
 }
 
 }  // namespace sipplab

@@ -4,12 +4,12 @@
 // time, and one for the last to arrive; adaptive selection as in Ropke and Pisinger 2006.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
 
 #include "planner/core/random.hpp"
+#include "planner/core/roulette.hpp"
 #include "planner/prioritized/partial_plan.hpp"
 
 namespace sipplab {
@@ -28,7 +28,7 @@ std::string_view name(RemovalRule rule);
 struct Neighbours {
   const Instance& instance;
   const PartialPlan& plan;
-  const std::vector<double>& static_times_s;     ///< by robot
+  const std::vector<double>& fastest_s;          ///< by robot: arrivals on fastest_ways
   const std::vector<Trajectory>& fastest_paths;  ///< by robot, alone on the map
 };
 
@@ -37,16 +37,7 @@ struct Neighbours {
 std::vector<AgentIndex> choose_neighbourhood(RemovalRule rule, const Neighbours& among, std::size_t most,
                                              Random& random);
 
-/// Adaptive selection by roulette wheel: favours rules that gain most for their work.
-class RuleRoulette {
- public:
-  RemovalRule draw(Random& random) const;
-  /// `gain` >= 0, per unit of work, in any unit.
-  void learn(RemovalRule rule, double gain);
-
- private:
-  std::array<double, kRemovalRules> weights_ = {1, 1, 1, 1};
-  double scale_ = 0;  ///< greatest recent gain, so that weights do not depend on units
-};
+/// Adaptive selection of rules.
+using RuleRoulette = Roulette<kRemovalRules>;
 
 }  // namespace sipplab

@@ -5,7 +5,6 @@
 #include <memory>
 #include <queue>
 
-#include "planner/core/parallel.hpp"
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/grid/step_table.hpp"
 #include "sipplab/geometry.hpp"
@@ -134,23 +133,24 @@ class LinesOfSight {
 }  // namespace
 
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells, unsigned threads,
+                                   const std::vector<double>& solo_cells, const SearchLimits& limits,
                                    std::size_t most_work_of_all) {
   const std::size_t robots = instance.agents.size();
   const std::size_t most_work =
       std::min(kMostStaticWork, most_work_of_all / std::max<std::size_t>(robots, 1));
-  std::vector<LinesOfSight> lines_of_sight;
-  for (unsigned i = 0; i < std::max(threads, 1U); ++i) lines_of_sight.emplace_back(instance.map);
+  LinesOfSight lines_of_sight(instance.map);
   std::vector<double> times_s(robots);
-  for_each_in_parallel(lines_of_sight.size(), robots, [&](std::size_t worker, std::size_t i) {
+  for (AgentIndex i = 0; i < robots; ++i) {
     const Agent& agent = instance.agents[i];
-    const LineOfSight& sight = lines_of_sight[worker].of(agent.radius_cells);
-    const double cells =
-        any_angle
-            ? shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal, solo_cells[i], most_work)
-            : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
+    const LineOfSight& sight = lines_of_sight.of(agent.radius_cells);
+    double cells = distance(agent.start, agent.goal);
+    if (!limits.is_over()) {
+      cells = any_angle ? shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal,
+                                                   solo_cells[i], most_work)
+                        : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
+    }
     times_s[i] = cells / agent.speed_cells_per_s;
-  });
+  }
   return times_s;
 }
 
@@ -188,7 +188,7 @@ LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedne
     // Large bodies may have a path and no steps: a straight line is a bound for them, too.
     solo_cells.push_back(cells == kForever ? straight : cells);
   }
-  std::vector<double> times_s = static_times_s(instance, any_angle, connectedness, solo_cells, 1, most_work);
+  std::vector<double> times_s = static_times_s(instance, any_angle, connectedness, solo_cells, {}, most_work);
   return lower_bound(times_s);
 }
 

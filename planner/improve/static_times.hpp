@@ -5,6 +5,7 @@
 
 #include "planner/grid/line_of_sight.hpp"
 #include "sipplab/improve.hpp"
+#include "sipplab/single_agent_planner.hpp"
 
 namespace sipplab {
 
@@ -30,9 +31,10 @@ double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_s
 double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to, int k);
 
 /// Lower bounds on the arrival of each robot alone on the map, in seconds. `solo_cells` are the
-/// lengths of paths that exist, by robot. The same on any number of threads.
+/// lengths of paths that exist, by robot. Robots that are looked at after `limits` are over have the time of
+/// a straight line.
 std::vector<double> static_times_s(const Instance& instance, bool any_angle, int connectedness,
-                                   const std::vector<double>& solo_cells, unsigned threads = 1,
+                                   const std::vector<double>& solo_cells, const SearchLimits& limits = {},
                                    std::size_t most_work_of_all = kMostStaticWorkOfAll);
 
 LowerBound lower_bound(const std::vector<double>& static_times_s);

@@ -24,19 +24,34 @@ PartialPlan::PartialPlan(const Instance& instance, double ssi_s, SingleAgentPlan
   for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) starts_.protect(agent);
 }
 
-Expected<Trajectory, PlanFailure> PartialPlan::find(AgentIndex agent, const SearchLimits& limits,
-                                                    SearchStatistics& statistics) {
+template <class Search>
+auto PartialPlan::guarded(AgentIndex agent, Search&& search) {
   PLANNER_ASSERT(!is_planned(agent));
   const std::vector<AgentIndex>& followers = precedence_.followers(agent);
   for (const AgentIndex follower : followers) starts_.protect(follower);
   starts_.begin(agent);
-  Expected<Trajectory, PlanFailure> trajectory = planner_.plan(agent, reservations_, limits, statistics);
+  auto found = search();
   starts_.end();
   starts_.protect(agent);
   for (const AgentIndex follower : followers) {
     if (is_planned(follower)) starts_.lift(follower);
   }
-  return trajectory;
+  return found;
+}
+
+Expected<Trajectory, PlanFailure> PartialPlan::find(AgentIndex agent, const SearchLimits& limits,
+                                                    SearchStatistics& statistics) {
+  return guarded(agent, [&] { return planner_.plan(agent, reservations_, limits, statistics); });
+}
+
+bool PartialPlan::tighten(AgentIndex agent) {
+  Taken taken = take_out(agent);
+  std::optional<Trajectory> found =
+      guarded(agent, [&] { return planner_.tighten(agent, taken.trajectory, reservations_); });
+  const bool is_earlier = found && found->arrival_s() < taken.trajectory.arrival_s();
+  if (found && found->arrival_s() <= taken.trajectory.arrival_s()) taken.trajectory = std::move(*found);
+  put_back(std::move(taken));
+  return is_earlier;
 }
 
 void PartialPlan::insert(AgentIndex agent, Trajectory trajectory) {

@@ -29,6 +29,10 @@ class PartialPlan {
   Expected<Trajectory, PlanFailure> find(AgentIndex agent, const SearchLimits& limits,
                                          SearchStatistics& statistics);
 
+  /// Lets a robot go on its way as early as others let it, and cut corners where it can: see
+  /// SingleAgentPlanner::tighten(). Whether it arrives earlier. REQUIRES: the robot is planned.
+  bool tighten(AgentIndex agent);
+
   /// REQUIRES: the robot is not planned; the trajectory is in conflict with none.
   void insert(AgentIndex agent, Trajectory trajectory);
   /// What take_out() took, to be put back as it was.
@@ -65,6 +69,9 @@ class PartialPlan {
   std::optional<PriorityOrder> order() const;
 
  private:
+  /// What `search` finds while the starts are protected that a robot out of the plan must keep off.
+  template <class Search>
+  auto guarded(AgentIndex agent, Search&& search);
   void enter(AgentIndex agent, Trajectory trajectory, std::uint64_t inserted);
   bool are_in_conflict(AgentIndex agent, const Trajectory& trajectory, AgentIndex other) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "planner/retime/unit_schedule.hpp"
 
@@ -28,9 +29,7 @@ bool add_unit_moves(const Instance& instance, const FreeGrid& grid, const TimedM
 
 }  // namespace
 
-std::optional<std::vector<std::vector<Cell>>> discrete_steps(const Instance& instance,
-                                                             const Solution& solution) {
-  const FreeGrid grid(instance.map);
+std::optional<Visits> unit_visits(const Instance& instance, const FreeGrid& grid, const Solution& solution) {
   VisitCollector collector(grid.size());
   for (const Trajectory& trajectory : solution.trajectories) {
     if (!instance.map.contains(trajectory.start) || instance.map.is_blocked(trajectory.start))
@@ -40,7 +39,13 @@ std::optional<std::vector<std::vector<Cell>>> discrete_steps(const Instance& ins
       if (!motion.is_wait() && !add_unit_moves(instance, grid, motion, collector)) return std::nullopt;
     }
   }
-  const std::optional<Visits> visits = std::move(collector).take();
+  return std::move(collector).take();
+}
+
+std::optional<std::vector<std::vector<Cell>>> discrete_steps(const Instance& instance,
+                                                             const Solution& solution) {
+  const FreeGrid grid(instance.map);
+  const std::optional<Visits> visits = unit_visits(instance, grid, solution);
   if (!visits) return std::nullopt;
   const std::vector<std::int64_t> steps = unit_steps(grid, *visits);
   if (steps.size() != visits->size()) return std::nullopt;  // two robots that change places

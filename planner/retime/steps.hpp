@@ -4,15 +4,20 @@
 #include <optional>
 #include <vector>
 
+#include "planner/grid/free_grid.hpp"
+#include "planner/retime/visits.hpp"
 #include "sipplab/instance.hpp"
 #include "sipplab/solution.hpp"
 
 namespace sipplab {
 
+/// Which robot visits which cell, and in which order. None for plans with other moves than straight ones
+/// along rows and columns of free cells, or with two robots at one cell.
+std::optional<Visits> unit_visits(const Instance& instance, const FreeGrid& grid, const Solution& solution);
+
 /// The cells of each robot, step after step from its start on, with the paths and the order at each cell that
 /// the plan has, in the fewest steps for every robot: all move at once, and a robot may enter a cell in the
-/// step in which another one leaves it. None for plans with other moves than straight ones along rows and
-/// columns of free cells, or with two robots at one cell.
+/// step in which another one leaves it. None where unit_visits() has none.
 std::optional<std::vector<std::vector<Cell>>> discrete_steps(const Instance& instance,
                                                              const Solution& solution);
 

@@ -1,5 +1,6 @@
 #include "planner/retime/unit_schedule.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -23,16 +24,19 @@ struct ExactClock {
   double seconds(ExactTime time, double unit_move_s) const { return time.seconds(unit_move_s); }
 };
 
+/// follow_lag() of disks of this reach, in moves.
+double lag_of(Cell left, Cell entered, double reach) {
+  constexpr double kSameCells = 1;
+  const bool is_opposite = left.x == -entered.x && left.y == -entered.y;
+  return follow_lag(left, entered).seconds(is_opposite ? kSameCells : reach);
+}
+
 /// And of smaller ones.
 struct RealClock {
   using Time = double;
   static constexpr double kUnitMove = 1;
   double reach;
-  double lag(Cell left, Cell entered) const {
-    constexpr double kSameCells = 1;
-    const bool is_opposite = left.x == -entered.x && left.y == -entered.y;
-    return follow_lag(left, entered).seconds(is_opposite ? kSameCells : reach);
-  }
+  double lag(Cell left, Cell entered) const { return lag_of(left, entered, reach); }
   bool is_later(double a, double b) const { return a > b + kUnitRounding; }
   double seconds(double time, double unit_move_s) const { return time * unit_move_s; }
 };
@@ -42,6 +46,15 @@ struct StepClock {
   using Time = std::int64_t;
   static constexpr std::int64_t kUnitMove = 1;
   std::int64_t lag(Cell, Cell) const { return kUnitMove; }
+  bool is_later(std::int64_t a, std::int64_t b) const { return a > b; }
+};
+
+/// And in ticks.
+struct TickClock {
+  using Time = std::int64_t;
+  static constexpr std::int64_t kUnitMove = kTicksPerMove;
+  double reach;
+  std::int64_t lag(Cell left, Cell entered) const { return follow_ticks(left, entered, reach); }
   bool is_later(std::int64_t a, std::int64_t b) const { return a > b; }
 };
 
@@ -135,6 +148,11 @@ ExactTime follow_lag(Cell left, Cell entered) {
   return left.x * entered.x + left.y * entered.y == 0 ? kRightAngle : kOpposite;
 }
 
+std::int32_t follow_ticks(Cell left, Cell entered, double reach_cells) {
+  return static_cast<std::int32_t>(
+      std::ceil((lag_of(left, entered, reach_cells) - kUnitRounding) * kTicksPerMove));
+}
+
 UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double reach_cells,
                            double unit_move_s) {
   PLANNER_ASSERT(0 < reach_cells && reach_cells <= 1 + kTouchDepthCells);
@@ -146,6 +164,10 @@ UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double re
 
 std::vector<std::int64_t> unit_steps(const FreeGrid& grid, const Visits& visits) {
   return least_times(VisitGraph<StepClock>(StepClock{}, grid, visits)).times;
+}
+
+std::vector<std::int64_t> unit_ticks(const FreeGrid& grid, const Visits& visits, double reach_cells) {
+  return least_times(VisitGraph<TickClock>(TickClock{reach_cells}, grid, visits)).times;
 }
 
 }  // namespace sipplab

@@ -28,6 +28,12 @@ namespace sipplab {
 /// else is to be kept. Smaller disks follow closer in proportion, but for those that never bind.
 ExactTime follow_lag(Cell left, Cell entered);
 
+/// Parts of a unit move in which times are counted where whole numbers are to be fast: a right angle's lag is
+/// longer than exact by 1e-4 moves.
+inline constexpr std::int32_t kTicksPerMove = 4096;
+/// follow_lag() for disks of this reach, in ticks, rounded up.
+std::int32_t follow_ticks(Cell left, Cell entered, double reach_cells);
+
 /// Unit moves at the least times.
 struct UnitSchedule {
   /// At the cell of each visit, by Visits' numbers; those of visits that were taken out mean nothing.
@@ -49,5 +55,9 @@ UnitSchedule unit_schedule(const FreeGrid& grid, const Visits& visits, double re
 /// The step at which each visit begins, by Visits' numbers, if all robots step at once and one may enter a
 /// cell in the step in which another one leaves it. REQUIRES: as unit_schedule().
 std::vector<std::int64_t> unit_steps(const FreeGrid& grid, const Visits& visits);
+
+/// The tick at which each visit begins, by Visits' numbers, with lags of follow_ticks(); empty if some visits
+/// wait for each other. REQUIRES: as unit_schedule().
+std::vector<std::int64_t> unit_ticks(const FreeGrid& grid, const Visits& visits, double reach_cells);
 
 }  // namespace sipplab

@@ -347,6 +347,51 @@ NodeId Sipp<Motion>::shoot(NodeId id) {
 }
 
 template <class Motion>
+std::optional<Trajectory> Sipp<Motion>::tighten(AgentIndex agent, const Trajectory& given,
+                                                Reservations& reservations) {
+  if (Motion::kTurns) return std::nullopt;
+  auto* const table = dynamic_cast<ReservationTable*>(&reservations);
+  PLANNER_ASSERT(table != nullptr);
+  begin(instance_.agents[agent], *table);
+  std::optional<Stops> stops = stops_of(given);
+  if (!stops) return std::nullopt;
+  for (std::size_t to = 1; to < stops->size(); ++to) {
+    if (!move((*stops)[to - 1], (*stops)[to], (*stops)[to].arrival_s)) return std::nullopt;
+  }
+  constexpr int kRounds = 2;
+  for (int round = 0; options_.any_angle && round < kRounds; ++round) {
+    join_lines(*stops);
+    pull_tight(*stops);
+  }
+  join_lines(*stops);
+  return reconstruct(*stops);
+}
+
+template <class Motion>
+std::optional<typename Sipp<Motion>::Stops> Sipp<Motion>::stops_of(const Trajectory& trajectory) {
+  Stops stops;
+  const auto add = [&](Cell cell, double departure_s, double arrival_s) {
+    for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
+      if (interval.end_s < arrival_s) continue;
+      if (interval.begin_s > arrival_s) return false;
+      Node& stop = stops.emplace_back();
+      stop.x = static_cast<std::int16_t>(cell.x);
+      stop.y = static_cast<std::int16_t>(cell.y);
+      stop.interval = interval;
+      stop.departure_s = departure_s;
+      stop.arrival_s = arrival_s;
+      return true;
+    }
+    return false;
+  };
+  if (!add(trajectory.start, 0, 0)) return std::nullopt;
+  for (const TimedMotion& motion : trajectory.motions) {
+    if (!motion.is_wait() && !add(motion.to, motion.begin_s, motion.end_s)) return std::nullopt;
+  }
+  return stops;
+}
+
+template <class Motion>
 Trajectory Sipp<Motion>::finish(NodeId goal) {
   Stops stops = stops_to(goal);
   if (options_.any_angle) join_lines(stops);

@@ -2,6 +2,7 @@
 // [YA17]: Yakovlev and Andreychuk, ICAPS 2017, algorithm AA-SIPP.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,11 @@ class Sipp final : public SingleAgentPlanner {
   /// heading; the robot has arrived when it ends.
   Expected<Trajectory, PlanFailure> plan(AgentIndex agent, Reservations& reservations,
                                          const SearchLimits& limits, SearchStatistics& statistics) override;
+
+  /// Leaves every stop as early as is safe, then leaves out stops or moves them to a cell beside: see
+  /// SippOptions::elastic. None for robots that have a heading.
+  std::optional<Trajectory> tighten(AgentIndex agent, const Trajectory& given,
+                                    Reservations& reservations) override;
 
   /// Counts travelling, turning and standing, as if the robot were alone on an empty map.
   double lower_bound_s(AgentIndex agent) const override;
@@ -142,6 +148,8 @@ class Sipp final : public SingleAgentPlanner {
   using Stops = std::vector<Node>;
   /// From the start.
   Stops stops_to(NodeId goal) const;
+  /// Of a trajectory, each in the safe interval of its arrival; none if one is in no safe interval.
+  std::optional<Stops> stops_of(const Trajectory& trajectory);
   /// Leaves out stops at which the robot goes straight on at once.
   static void join_lines(Stops& stops);
   /// See SippOptions::elastic.

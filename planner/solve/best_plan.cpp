@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "planner/complete/complete_planner.hpp"
+#include "planner/improve/objective.hpp"
 #include "planner/prioritized/limits.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "planner/solve/plan.hpp"
 #include "sipplab/solution.hpp"
 #include "sipplab/solve.hpp"
@@ -24,6 +26,13 @@ constexpr std::uint64_t kEscalationRestarts = 0;
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
 /// Steps of LaCAM for a first plan. (Trials: some hundreds, however many robots.)
 constexpr std::uint64_t kFirstPlanSteps = 10'000;
+/// ... if LaCAM has given a plan: ejection is worth its time where few robots fail.
+constexpr std::uint64_t kFewEjections = 8;
+constexpr std::size_t kRobotsPerEjection = 40;
+/// Expansions for improvement by unit moves before the two plans are compared: for each one that the other
+/// plan took, which took ten times as long, and at least for each robot.
+constexpr std::uint64_t kUnitExpansions = 10;
+constexpr std::uint64_t kUnitExpansionsPerRobot = 4000;
 
 class BestPlan {
  public:
@@ -38,9 +47,10 @@ class BestPlan {
 
   SolveResult run() {
     if (has_fallback_) fall_back(kFirstPlanSteps, options_.time_limit_s * kShareOfFirstPlan);
-    const bool is_found =
-        take(BestStep::Kind::kMethod, options_.ssi_s) || escalate(BestStep::Kind::kEscalation) ||
-        take(BestStep::Kind::kEjection, options_.ssi_s) || escalate(BestStep::Kind::kEjection);
+    const bool is_found = take(BestStep::Kind::kMethod, options_.ssi_s) ||
+                          escalate(BestStep::Kind::kEscalation) ||
+                          take(BestStep::Kind::kEjection, options_.ssi_s) ||
+                          (fallback_.status != PlanStatus::kSolved && escalate(BestStep::Kind::kEjection));
     if (!is_found && fallback_.status == PlanStatus::kLimit) {
       fall_back(UINT64_MAX, time_left_s());
     }
@@ -74,6 +84,9 @@ class BestPlan {
       case BestStep::Kind::kEscalation:
         return kEscalationRestarts;
       case BestStep::Kind::kEjection:
+        if (fallback_.status == PlanStatus::kSolved) {
+          return std::max<std::uint64_t>(kFewEjections, instance_.agents.size() / kRobotsPerEjection);
+        }
         return kEjectionRestartsPerRobot * instance_.agents.size();
       case BestStep::Kind::kFallback:
         return 0;
@@ -130,21 +143,36 @@ class BestPlan {
     before = std::move(next);
   }
 
-  /// The plan of the last step, which keeps the guarantee of start-safe intervals; else that of
-  /// LaCAM. What the others took comes before it.
+  /// The plan that is cheaper, that of LaCAM after some improvement; of the same cost the one
+  /// that keeps the guarantee of start-safe intervals. What the others took comes before it.
   void choose(bool is_found) {
-    const bool takes_fallback = !is_found && has_fallback_;
+    const bool takes_fallback = !is_found ? has_fallback_ : fallback_.status == PlanStatus::kSolved && wins();
+    if (!takes_fallback) begun_.reset();
     result_.plan = std::move(takes_fallback ? fallback_ : planned_);
     prepend(takes_fallback ? planned_ : fallback_, result_.plan);
   }
 
+  /// Whether the plan of LaCAM is the better one after the work that the other one took.
+  bool wins() {
+    PlannerOptions improving = options_;
+    ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    budget.seconds = std::min(budget.seconds, time_left_s() * kShareBeforeImprovement);
+    improving.improve = budget;
+    begun_ = improve_unit_moves(instance_, fallback_.solution, improving,
+                                std::max(kUnitExpansions * planned_.statistics.expansions,
+                                         kUnitExpansionsPerRobot * instance_.agents.size()));
+    const Solution& improved = begun_ ? begun_->solution : fallback_.solution;
+    const auto cost_of = [](const Solution& plan) { return PlanCost{flowtime_s(plan), makespan_s(plan)}; };
+    return is_better(options_.objective, cost_of(improved), cost_of(planned_.solution));
+  }
+
   void improve_it() {
     PlannerOptions improving = options_;
-    improving.ssi_s = result_.plan.ssi_kept_s;
     ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    if (begun_) budget.iterations -= begun_->log.iterations;
     budget.seconds = std::min(budget.seconds, time_left_s());
     improving.improve = budget;
-    result_.improvement = improve(instance_, result_.plan.solution, result_.plan.order(), improving);
+    result_.improvement = improve_in_stages(instance_, result_.plan, improving, begun_);
   }
 
   const Instance& instance_;
@@ -154,6 +182,7 @@ class BestPlan {
   Clock::time_point begin_;
   PlanResult fallback_;  ///< of LaCAM; failed if it was not asked
   PlanResult planned_;   ///< of the other steps
+  Begun begun_;          ///< of the plan of LaCAM
   SolveResult result_;
 };
 

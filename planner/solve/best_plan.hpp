@@ -12,9 +12,10 @@ namespace sipplab {
 ///      milliseconds, though a poor one;
 ///  (2) the method of the options;
 ///  (3) the same with each longer start-safe interval;
-///  (4) ejection, with the first interval and then with the longer ones;
-/// of (2) to (4) each until it gives a plan, which is then taken instead, or has had its
-/// restarts; if none does and (1) was cut short, LaCAM again. Then the plan is
+///  (4) ejection, with the first interval and, if (1) gave no plan, with the longer ones;
+/// of (2) to (4) each until it gives a plan or has had its restarts; if none does and (1) was cut short, the
+/// complete planner again. If there are two plans, that of (1) is improved by unit moves as long as the other
+/// one took, and the cheaper one is kept: it may keep starts safe for a shorter time. Then the plan is
 /// improved until a limit is reached. If options.longer_ssi_s is empty, kLongerSsiS are tried.
 /// Steps are limited by counts, and by shares of options.time_limit_s, which is for everything: the result is
 /// repeatable if these are not used up and the iterations of options.improve end before the time limit.
@@ -25,9 +26,9 @@ SolveResult best_plan(const Instance& instance, const PlannerOptions& options);
 inline constexpr double kLongerSsiS[] = {9, 15};
 
 /// Share of the time limit for the first plan.
-inline constexpr double kShareOfFirstPlan = 0.1;
+inline constexpr double kShareOfFirstPlan = 0.5;
 /// Share of the time limit in which a better plan must have been found. The rest is for
 /// improvement, which a plan of LaCAM needs more than any other.
-inline constexpr double kShareBeforeImprovement = 0.3;
+inline constexpr double kShareBeforeImprovement = 0.15;
 
 }  // namespace sipplab

@@ -2,6 +2,7 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/solve/best_plan.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "planner/solve/plan.hpp"
 
 namespace sipplab {
@@ -27,9 +28,7 @@ SolveResult solve(const Instance& instance, const PlannerOptions& options) {
   SolveResult result;
   result.plan = plan(instance, options);
   if (options.improve && result.is_solved()) {
-    PlannerOptions improving = options;
-    improving.ssi_s = result.plan.ssi_kept_s;
-    result.improvement = improve(instance, result.plan.solution, result.plan.order(), improving);
+    result.improvement = improve_in_stages(instance, result.plan, options);
   }
   return result;
 }

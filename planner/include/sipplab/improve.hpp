@@ -53,6 +53,8 @@ struct ImproveResult {
   /// A final order that keeps the guarantee of start-safe intervals; none if the given plan
   /// kept it in no order: then only freedom from collisions is guaranteed.
   std::optional<PriorityOrder> order;
+  /// How long starts are safe in that order, in seconds; 0 if there is none.
+  double ssi_kept_s = 0;
   ImprovementLog log;
   SearchStatistics statistics;
 };

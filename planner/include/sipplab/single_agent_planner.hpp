@@ -77,6 +77,13 @@ class SingleAgentPlanner {
                                                  const SearchLimits& limits,
                                                  SearchStatistics& statistics) = 0;
 
+  /// A trajectory that goes the way of the given one, or cuts its corners, and arrives no later; none if this
+  /// planner has no such thing, or if the given one collides with something in `reservations`.
+  virtual std::optional<Trajectory> tighten(AgentIndex /*agent*/, const Trajectory& /*given*/,
+                                            Reservations& /*reservations*/) {
+    return std::nullopt;
+  }
+
   /// A lower bound on the travel time of `agent`, in seconds, for initial orders.
   virtual double lower_bound_s(AgentIndex agent) const = 0;
 };

@@ -39,7 +39,7 @@ struct SolveResult {
     return improvement && improvement->order ? *improvement->order : plan.order();
   }
   /// How long it keeps starts safe, in that order; 0 if it guarantees nothing of them.
-  double ssi_kept_s() const { return improvement && !improvement->log.keeps_guarantee ? 0 : plan.ssi_kept_s; }
+  double ssi_kept_s() const { return improvement ? improvement->ssi_kept_s : plan.ssi_kept_s; }
   /// What the validator is to check of a plan that was made under these rules.
   ValidationOptions guarantees(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
   /// Wall clock, planning and improving.

@@ -1,0 +1,68 @@
+#include "planner/solve/improve_stages.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace sipplab {
+namespace {
+
+/// Share of the budget for unit moves, while they gain enough. (Paper's warehouse with 192 robots, 10 s of
+/// processor time: 5,071 with a third of the iterations, 4,922 with 0.7, 4,861 with 0.94.)
+constexpr double kShareOfUnitMoves = 0.85;
+
+/// What one stage did comes before what the next one did.
+void prepend(const UnitImprovement& before, ImproveResult& result) {
+  ImprovementLog& log = result.log;
+  std::vector<ProgressPoint> curve = before.log.curve;
+  for (ProgressPoint point : log.curve) {
+    point.seconds += before.log.curve.back().seconds;
+    point.iteration += before.log.iterations;
+    curve.push_back(point);
+  }
+  log.curve = std::move(curve);
+  log.iterations += before.log.iterations;
+  log.improvements += before.log.improvements;
+  result.statistics += before.statistics;
+}
+
+ImproveBudget share_of(const ImproveBudget& budget, double share) {
+  ImproveBudget part = budget;
+  part.seconds *= share;
+  if (budget.iterations != UINT64_MAX) {
+    part.iterations = static_cast<std::uint64_t>(share * static_cast<double>(budget.iterations));
+  }
+  return part;
+}
+
+ImproveBudget left_of(const ImproveBudget& budget, const UnitImprovement& done) {
+  ImproveBudget left = budget;
+  left.seconds = std::max(budget.seconds - done.log.curve.back().seconds, 0.0);
+  left.iterations -= std::min(left.iterations, done.log.iterations);
+  return left;
+}
+
+}  // namespace
+
+ImproveResult improve_in_stages(const Instance& instance, const PlanResult& given,
+                                const PlannerOptions& options, const Begun& begun) {
+  const ImproveBudget budget = options.improve.value_or(ImproveBudget{});
+  const bool is_lacams = given.made_by == Method::kComplete;
+  PlannerOptions stage = options;
+  Begun unit;
+  if (is_lacams || given.ssi_kept_s == 0) {
+    stage.ssi_s = is_lacams ? given.ssi_s : 0;
+    stage.improve = share_of(budget, kShareOfUnitMoves);
+    unit = improve_unit_moves(instance, begun ? begun->solution : given.solution, stage);
+  }
+  stage.improve = unit ? left_of(budget, *unit) : budget;
+  const Begun& last = unit ? unit : begun;
+  stage.ssi_s = last ? last->order.kept_s : given.ssi_kept_s;
+  ImproveResult result = last ? improve(instance, last->solution, last->order.order, stage)
+                              : improve(instance, given.solution, given.order(), stage);
+  if (unit) prepend(*unit, result);
+  if (begun) prepend(*begun, result);
+  return result;
+}
+
+}  // namespace sipplab

@@ -1,0 +1,23 @@
+// Improvement of a plan in stages, from coarse to fine.
+#pragma once
+
+#include <optional>
+
+#include "planner/unit_moves/improve_unit_moves.hpp"
+#include "sipplab/improve.hpp"
+#include "sipplab/solve.hpp"
+
+namespace sipplab {
+
+/// What was done for a plan of unit moves already.
+using Begun = std::optional<UnitImprovement>;
+
+/// A plan of unit moves is improved by unit moves first (improve_unit_moves()), then, as any other one, by
+/// the paths of the planner for one robot (improve()). Iterations and seconds of options.improve are for both
+/// together, in addition to what was begun; the log tells of all. Without options.improve there is no limit.
+/// A plan that keeps a guarantee of start-safe intervals which was asked for keeps it; one of LaCAM keeps
+/// starts safe for as long as it happens to. REQUIRES: as improve().
+ImproveResult improve_in_stages(const Instance& instance, const PlanResult& given,
+                                const PlannerOptions& options, const Begun& begun = std::nullopt);
+
+}  // namespace sipplab

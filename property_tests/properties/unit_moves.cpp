@@ -1,0 +1,214 @@
+// Improvement of plans of unit moves: what it gives is right for disks, never worse than what it was given,
+// and depends on no clock; its search is exact.
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "planner/complete/complete_planner.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/reservation/reservation_table.hpp"
+#include "planner/retime/steps.hpp"
+#include "planner/search/sipp_search.hpp"
+#include "planner/unit_moves/improve_unit_moves.hpp"
+#include "planner/unit_moves/route_search.hpp"
+#include "property_tests/support/assert_valid.hpp"
+#include "property_tests/support/generators.hpp"
+#include "property_tests/support/pebble_search.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab {
+
+void showValue(const Objective& objective, std::ostream& out) { out << format_objective(objective); }
+
+namespace {
+
+/// Steps of LaCAM: far more than the cases here take.
+constexpr std::uint64_t kMostSteps = 20'000;
+
+/// Robots on up to half of the cells of a small map, which drive anywhere: most first plans can be improved.
+PlanCase make_crowd(std::uint64_t seed) {
+  Random random(seed);
+  constexpr std::int32_t kLeastSide = 4;
+  constexpr std::uint64_t kSides = 6;
+  PlanCase plan_case;
+  GridMap& map = plan_case.instance.map;
+  map = GridMap(kLeastSide + static_cast<std::int32_t>(random.below(kSides)),
+                kLeastSide + static_cast<std::int32_t>(random.below(kSides)));
+  std::vector<std::size_t> starts(map.cell_count());
+  std::iota(starts.begin(), starts.end(), std::size_t{0});
+  std::vector<std::size_t> goals = starts;
+  random.shuffle(starts);
+  random.shuffle(goals);
+  constexpr std::array<double, 3> kRadii = {0.5, 0.4, 0.25};
+  const double radius_cells = kRadii[random.below(kRadii.size())];
+  const std::size_t robots = 2 + random.below(map.cell_count() / 2 - 1);
+  for (std::size_t i = 0; i < robots; ++i) {
+    Agent agent;
+    agent.start = map.cell(starts[i]);
+    agent.goal = map.cell(goals[i]);
+    agent.radius_cells = radius_cells;
+    plan_case.instance.agents.push_back(agent);
+  }
+  return plan_case;
+}
+
+struct Planned {
+  PlanCase plan_case;
+  CompleteResult result;
+  PlannerOptions options;
+};
+
+/// A case that LaCAM solved, and a few iterations for it.
+Planned any_planned() {
+  const bool is_crowd = *rc::gen::arbitrary<bool>();
+  Planned planned{
+      is_crowd ? make_crowd(*rc::gen::arbitrary<std::uint64_t>()) : within_complete_model(*any_case()),
+      {},
+      {}};
+  classify_case(planned.plan_case);
+  note_case(planned.plan_case);
+  planned.options = planned.plan_case.options;
+  planned.options.max_expansions = kMostSteps;
+  planned.result = plan_complete(planned.plan_case.instance, planned.options);
+  RC_PRE(planned.result.status == LacamStatus::kSolved && !planned.plan_case.instance.agents.empty());
+  planned.options.objective =
+      *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1}, Objective{1, 20});
+  planned.options.improve = ImproveBudget{};
+  planned.options.improve->iterations = *rc::gen::inRange<std::uint64_t>(0, 60);
+  planned.options.seed = *rc::gen::arbitrary<std::uint64_t>();
+  return planned;
+}
+
+UnitImprovement improved(const Planned& planned) {
+  std::optional<UnitImprovement> result =
+      improve_unit_moves(planned.plan_case.instance, planned.result.solution, planned.options);
+  RC_PRE(result.has_value());
+  RC_CLASSIFY(result->log.improvements > 0, "improved");
+  RC_CLASSIFY(result->log.improvements > 2, "improved more than twice");
+  return std::move(*result);
+}
+
+/// Routes of a plan of unit moves, at the earliest ticks.
+struct Routes {
+  Routes(const Instance& instance, const Solution& solution)
+      : grid(instance.map),
+        moves(grid, std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0)) {
+    const std::optional<Visits> visits = unit_visits(instance, grid, solution);
+    RC_ASSERT(visits.has_value());
+    const std::vector<std::int64_t> ticks =
+        unit_ticks(grid, *visits, std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0));
+    RC_PRE(ticks.size() == visits->size());
+    for (RobotId robot = 0; robot < visits->robots(); ++robot) {
+      Route& route = routes.emplace_back();
+      for (VisitId id = visits->first_of(robot); id != kNoVisit; id = (*visits)[id].after) {
+        route.push_back({(*visits)[id].cell, static_cast<Tick>(ticks[id])});
+      }
+      starts.push_back(route.front().cell);
+      goals.push_back(route.back().cell);
+    }
+  }
+
+  FreeGrid grid;
+  UnitMoves moves;
+  std::vector<Route> routes;
+  std::vector<CellId> starts;
+  std::vector<CellId> goals;
+};
+
+double seconds(Tick tick, const Agent& agent) {
+  return static_cast<double>(tick) / kTicksPerMove / agent.speed_cells_per_s;
+}
+
+Trajectory trajectory_of(const Routes& plan, const Route& route, const Agent& agent) {
+  Trajectory trajectory{plan.grid.cell(route.front().cell), {}};
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    const Cell from = plan.grid.cell(route[i - 1].cell);
+    const double begin_s = seconds(route[i].arrival - kMoveTicks, agent);
+    if (begin_s > trajectory.end_s()) trajectory.motions.push_back({trajectory.end_s(), begin_s, from, from});
+    trajectory.motions.push_back(
+        {trajectory.end_s(), seconds(route[i].arrival, agent), from, plan.grid.cell(route[i].cell)});
+  }
+  return trajectory;
+}
+
+}  // namespace
+}  // namespace sipplab
+
+int main() {
+  using namespace sipplab;
+  bool passed = true;
+
+  passed &= property("improve_unit_moves (1): never worse than what it was given, and as it says", [] {
+    const Planned planned = any_planned();
+    const Objective& objective = planned.options.objective;
+    const UnitImprovement result = improved(planned);
+    const PlanCost before{flowtime_s(planned.result.solution), makespan_s(planned.result.solution)};
+    const PlanCost after{flowtime_s(result.solution), makespan_s(result.solution)};
+    RC_ASSERT(!is_better(objective, before, after));
+    RC_ASSERT(result.log.iterations <= planned.options.improve->iterations);
+    RC_ASSERT(result.log.curve.front().cost.flowtime_s == before.flowtime_s);
+    RC_ASSERT(result.log.curve.back().cost.flowtime_s == after.flowtime_s);
+    RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
+  });
+
+  passed &= property("improve_unit_moves (2): valid for disks, and of unit moves", [] {
+    const Planned planned = any_planned();
+    const Instance& instance = planned.plan_case.instance;
+    const UnitImprovement result = improved(planned);
+    assert_valid(instance, result.solution, {result.order.kept_s, result.order.order, {}});
+    RC_ASSERT(unit_visits(instance, FreeGrid(instance.map), result.solution).has_value());
+  });
+
+  passed &= property("improve_unit_moves (3): the same number of iterations gives the same plan", [] {
+    Planned planned = any_planned();
+    const UnitImprovement one = improved(planned);
+    planned.options.threads = *rc::gen::inRange(1U, 4U);
+    const UnitImprovement same = improved(planned);
+    RC_ASSERT(one.solution == same.solution);
+    RC_ASSERT(one.order.order == same.order.order);
+    RC_ASSERT(one.log.improvements == same.log.improvements);
+    RC_ASSERT(one.statistics.expansions == same.statistics.expansions);
+  });
+
+  passed &= property("a search by unit moves arrives when SIPP over the same disks does", [] {
+    const Planned planned = any_planned();
+    const Instance& instance = planned.plan_case.instance;
+    // Bodies of different sizes are all taken for the largest.
+    RC_PRE(std::all_of(instance.agents.begin(), instance.agents.end(), [&](const Agent& agent) {
+      return agent.radius_cells == instance.agents.front().radius_cells;
+    }));
+    const Routes plan(instance, planned.result.solution);
+    const auto robot = static_cast<RobotId>(*rc::gen::inRange<std::size_t>(0, instance.agents.size()));
+    const Agent& agent = instance.agents[robot];
+    SharedDistances distances(plan.grid, plan.starts, plan.goals);
+    Timetable others(plan.moves, plan.routes.size());
+    ReservationTable reservations(instance.map, askers_of(instance));
+    for (RobotId other = 0; other < plan.routes.size(); ++other) {
+      if (other == robot) continue;
+      RC_ASSERT(others.fits(plan.routes[other]));
+      others.insert(other, plan.routes[other]);
+      reservations.add(trajectory_of(plan, plan.routes[other], agent), agent.radius_cells);
+    }
+    const Tick before = plan.routes[robot].back().arrival;
+    const auto found = RouteSearch(plan.moves, distances).find(robot, others, before, kMostSteps);
+    RC_ASSERT(found.has_value());
+    RC_ASSERT(others.fits(*found));
+    const Tick arrival = found->back().arrival;
+    RC_CLASSIFY(arrival < before, "earlier than before");
+    RC_CLASSIFY(arrival > distances.least_arrival(robot), "around others");
+    SippOptions by_steps;
+    by_steps.any_angle = false;
+    SearchStatistics statistics;
+    const auto exact = SippSearch(instance, by_steps).plan(robot, reservations, {}, statistics);
+    RC_ASSERT(static_cast<bool>(exact));
+    // Lags are rounded up to ticks, and a queue has buckets of a sixteenth of a move.
+    const double tolerance_s = seconds(kMoveTicks / 16 + static_cast<Tick>(found->size()), agent);
+    RC_ASSERT(exact->arrival_s() <= seconds(arrival, agent) + 1e-6);
+    RC_ASSERT(seconds(arrival, agent) <= exact->arrival_s() + tolerance_s);
+  });
+
+  return passed ? 0 : 1;
+}
