@@ -93,6 +93,7 @@ class UnitImprover {
     Visits visits = visits_of_plan();
     visits.remove_round_trips();
     UnitSchedule schedule = unit_schedule(grid_, visits, reach_cells_, unit_move_s_);
+    PLANNER_ASSERT(schedule.circle.empty());  // it has times in ticks, which are longer
     UnitImprovement result;
     result.solution = std::move(schedule.solution);
     result.order = longest_kept_order(instance_, visits, schedule.arrivals_s, options_.ssi_s);

@@ -149,6 +149,7 @@ int main() {
     const PlanCost after{flowtime_s(result.solution), makespan_s(result.solution)};
     RC_ASSERT(!is_better(objective, before, after));
     RC_ASSERT(result.log.iterations <= planned.options.improve->iterations);
+    for (const ProgressPoint& point : result.log.curve) RC_ASSERT(!is_better(objective, point.cost, after));
     RC_ASSERT(result.log.curve.front().cost.flowtime_s == before.flowtime_s);
     RC_ASSERT(result.log.curve.back().cost.flowtime_s == after.flowtime_s);
     RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
