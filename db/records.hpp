@@ -170,9 +170,9 @@ struct ProgressRow {
   double makespan_bound_s = 0;
 };
 
-/// A plan as it was given, where the result is of the same ways and orders with other times.
+/// A plan as it was given, where the result is of the same paths and orders with other times.
 struct RetimingRow {
-  bool executable = true;  ///< false: no times exist for these ways and orders
+  bool executable = true;  ///< false: no times exist for these paths and orders
   bool given_valid = false;
   std::int64_t given_violations = 0;
   double given_makespan_s = 0;  ///< by the given plan's own clock
@@ -212,7 +212,7 @@ struct ResultRow {
   /// all results of the instance.
   std::optional<double> flowtime_bound_s;
   std::optional<double> makespan_bound_s;
-  std::vector<ProgressRow> progress = {};  ///< of improvement, in order of time; else empty
+  std::vector<ProgressRow> progress = {};    ///< of improvement, in order of time; else empty
   std::optional<RetimingRow> retiming = {};  ///< where the plan was re-timed
   /// What another program says of its run, by its own names: nobody checked that.
   std::vector<std::pair<std::string, double>> reported = {};

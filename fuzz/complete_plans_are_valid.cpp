@@ -1,4 +1,4 @@
-// Claim: every plan of the complete planner passes the validator, with the start-safe intervals
+// Claim: every plan of LaCAM passes the validator, with the start-safe intervals
 // that it says it keeps; the same case gives the same plan; and small cases are solved exactly
 // when moving one robot at a time, in every order, solves them.
 #include "fuzz/support/case_input.hpp"
@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(Claim::kSameInputSamePlan,
                 again.status == result.status && again.solution == result.solution &&
                     again.order == result.order && again.steps_tried == result.steps_tried,
-                "the complete planner, asked again");
+                "LaCAM, asked again");
 
   if (result.status != LacamStatus::kLimit && pebble_search_is_small(plan_case.instance)) {
     fuzz::require(Claim::kCompleteIsComplete, solved == is_solvable_by_pebbles(plan_case.instance),

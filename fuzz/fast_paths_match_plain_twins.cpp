@@ -26,7 +26,7 @@ using fuzz::Claim;
 constexpr double kTwinS = 1e-7;
 /// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each.
 constexpr double kArrivalS = 1e-6;
-/// Cells. More than all slacks along a path, less than any real detour.
+/// Cells. More than all slacks along a path, less than any real excess.
 constexpr double kNoContactCells = 1e-7;
 /// Times from which departures are asked for, in seconds.
 constexpr double kFromS[] = {0, 0.125, 1, 2.5};
@@ -139,13 +139,13 @@ void check_searches(const PlanCase& plan_case, AgentIndex agent, const Traffic& 
   const auto plain_s = plain_arrival_s(plan_case.instance.map, twin_of(traffic),
                                        plan_case.instance.agents[agent], options.connectedness);
   const Arrival plain{plain_s.has_value(), plain_s.value_or(0)};
-  options.detours = false;
+  options.static_distances = false;
   const Arrival straight = search(plan_case, agent, traffic, options);
   for (const Arrival& twin : {plain, straight}) {
     require_twins(twin.found == grid.found, "found by one twin only");
     require_twins(!grid.found || std::abs(twin.arrival_s - grid.arrival_s) <= kArrivalS, "another arrival");
   }
-  options.detours = true;
+  options.static_distances = true;
   options.weight = plan_case.options.weight;
   const Arrival weighted = search(plan_case, agent, traffic, options);
   require_twins(weighted.found == grid.found, "found with one weight of the heuristic only");

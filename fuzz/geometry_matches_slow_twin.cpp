@@ -50,8 +50,9 @@ std::vector<MovingDisk> disks_of(const PlanCase& plan_case) {
   const double begin_s = std::isinf(plan_case.options.ssi_s) ? 0 : plan_case.options.ssi_s;
   for (const Agent& agent : plan_case.instance.agents) {
     if (agent.start == agent.goal) continue;
-    const Displacement way(centre(agent.start), centre(agent.goal));
-    add(MovingDisk::moving(way, begin_s, begin_s + way.length / agent.speed_cells_per_s, agent.radius_cells));
+    const Displacement path(centre(agent.start), centre(agent.goal));
+    add(MovingDisk::moving(path, begin_s, begin_s + path.length / agent.speed_cells_per_s,
+                           agent.radius_cells));
   }
   return disks;
 }
@@ -65,7 +66,7 @@ void check_unsafe_times(const PlanCase& plan_case) {
     for (const MovingDisk& disk : disks) {
       if (++pairs > kMostPairs) return;
       check(departures_of(move, disk, agent.radius_cells + disk.radius));
-      check(collisions_of(move.way.from, disk, agent.radius_cells + disk.radius));
+      check(collisions_of(move.path.from, disk, agent.radius_cells + disk.radius));
     }
   }
 }
@@ -96,7 +97,7 @@ void check_sight(const PlanCase& plan_case) {
   for (const Cell to : legal) {
     const bool clear = sight.is_clear(from, to);
     fuzz::require(Claim::kSightIsExact, clear == exactly_clear(map, *radius, from, to),
-                  "another way is clear in whole numbers");
+                  "another path is clear in whole numbers");
     fuzz::require(Claim::kSightIsExact, clear == sight.is_clear(to, from), "the way back is not the same");
   }
 }

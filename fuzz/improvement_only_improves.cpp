@@ -1,4 +1,4 @@
-// Claim: whatever plan is improved, the result passes the validator, keeps its promise of
+// Claim: whatever plan is improved, the result passes the validator, keeps its guarantee of
 // start-safe intervals, is not worse, and is the same for the same number of iterations. The
 // same of --best, which finds the plan itself.
 #include <iterator>
@@ -35,7 +35,7 @@ void check_valid(const PlanCase& plan_case, double ssi_s, const ImproveResult& r
   ValidationOptions options;
   options.ssi_s = ssi_s;
   options.rules = plan_case.options.rules;
-  require(Claim::kPlanIsValid, result.order.has_value(), "a promise that was kept is kept in no order");
+  require(Claim::kPlanIsValid, result.order.has_value(), "a guarantee that was kept is kept in no order");
   options.order = *result.order;
   const ValidationReport report = validate(plan_case.instance, result.solution, options);
   require(Claim::kPlanIsValid, report.valid(), report.valid() ? "" : report.violations.front().message);

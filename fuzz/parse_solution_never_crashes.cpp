@@ -6,8 +6,8 @@
 #include "fuzz/support/claims.hpp"
 #include "fuzz/support/reading.hpp"
 #include "fuzz/support/target.hpp"
-#include "sipplab/solution_io.hpp"
 #include "planner/retime/retime.hpp"
+#include "sipplab/solution_io.hpp"
 #include "sipplab/validator.hpp"
 
 namespace {
@@ -48,14 +48,16 @@ bool same(const SolutionDocument& a, const SolutionDocument& b) {
 
 void check_read_back(const SolutionDocument& document) {
   const Instance& instance = instance_of_solutions();
-  for (const SolutionFormat format : {SolutionFormat::kXml, SolutionFormat::kJson, SolutionFormat::kCsv}) {
-    const auto again = parse_solution(write_solution(format, instance, document), "again", instance);
+  for (const SolutionFormat& format : solution_formats()) {
+    const auto text = write_solution(format.name, instance, document);
+    if (!text) continue;  // the format is not written, or cannot tell this solution
+    const auto again = parse_solution(*text, "again", instance, format.name);
     fuzz::require(Claim::kReadsBackEqual, again.has_value(), again ? "" : again.error().message());
-    if (format == SolutionFormat::kCsv) {
+    if (format.name == "csv") {
       const bool trajectories = !document.solution.trajectories.empty();
       fuzz::require(Claim::kReadsBackEqual, !trajectories || again->solution == document.solution,
                     "trajectories read back from CSV as others");
-    } else {
+    } else if (format.name != "tracker") {  // which has steps instead of seconds
       fuzz::require(Claim::kReadsBackEqual, same(*again, document), "a solution reads back as another");
     }
   }

@@ -29,7 +29,7 @@ using fuzz::require;
 /// Seconds. Rounding of sums of square roots.
 constexpr double kRoundingS = 1e-9;
 
-ValidationOptions promises_of(const PlanCase& plan_case, const PlanResult& result) {
+ValidationOptions guarantees_of(const PlanCase& plan_case, const PlanResult& result) {
   ValidationOptions options;
   options.ssi_s = plan_case.options.ssi_s;
   options.rules = plan_case.options.rules;
@@ -60,7 +60,7 @@ void count_outcome(const PlanCase& plan_case, const PlanResult& result) {
 
 void check_plan(const PlanCase& plan_case, const PlanResult& result) {
   const Instance& instance = plan_case.instance;
-  const ValidationReport report = validate(instance, result.solution, promises_of(plan_case, result));
+  const ValidationReport report = validate(instance, result.solution, guarantees_of(plan_case, result));
   require(Claim::kPlanIsValid, report.valid(), report.valid() ? "" : report.violations.front().message);
   require(Claim::kPlanIsCertified, certify(instance, result.solution).collisions == 0,
           "two bodies of a valid plan are proven to overlap");
@@ -124,7 +124,7 @@ void check_without_rescheduling(const PlanCase& plan_case, const PlanResult& res
   if (after.status != PlanStatus::kSolved) return;
   for (AgentIndex i = 0; i + 1 < changed.instance.agents.size(); ++i) {
     require(Claim::kLastGoalIsFree, after.solution.trajectories[i] == off.solution.trajectories[i],
-            "the last robot's goal changed the way of another");
+            "the last robot's goal changed the path of another");
   }
 }
 
@@ -157,27 +157,27 @@ void check_lone_robot(const PlanCase& plan_case) {
   require(Claim::kLoneRobotIsExact, (result.status == PlanStatus::kSolved) == steps.has_value(),
           "solved, unlike breadth-first search");
   if (!steps) return;
-  const double way_cells = result.solution.trajectories[0].arrival_s() * agent.speed_cells_per_s;
+  const double path_cells = result.solution.trajectories[0].arrival_s() * agent.speed_cells_per_s;
   const double rounding_cells = kRoundingS * (1 + agent.speed_cells_per_s);
-  require(Claim::kLoneRobotIsExact, way_cells >= distance(agent.start, agent.goal) - rounding_cells,
+  require(Claim::kLoneRobotIsExact, path_cells >= distance(agent.start, agent.goal) - rounding_cells,
           "shorter than the straight line");
   if (!lone.options.rules.is_plain()) return;  // turns and delays come on top
   const double weight = lone.options.weight;
-  require(Claim::kLoneRobotIsExact, way_cells <= weight * *steps + rounding_cells,
+  require(Claim::kLoneRobotIsExact, path_cells <= weight * *steps + rounding_cells,
           "longer than breadth-first search");
   const LineOfSight sight(lone.instance.map, agent.radius_cells);
   const double grid_cells =
       shortest_grid_cells(lone.instance.map, sight, agent.start, agent.goal, lone.options.connectedness);
-  require(Claim::kLoneRobotIsExact, way_cells <= weight * grid_cells + rounding_cells,
-          "longer than the shortest way over the neighbourhood");
-  require(Claim::kLoneRobotIsExact, lone.options.any_angle || way_cells >= grid_cells - rounding_cells,
-          "shorter than the shortest way over the neighbourhood");
+  require(Claim::kLoneRobotIsExact, path_cells <= weight * grid_cells + rounding_cells,
+          "longer than the shortest path over the neighbourhood");
+  require(Claim::kLoneRobotIsExact, lone.options.any_angle || path_cells >= grid_cells - rounding_cells,
+          "shorter than the shortest path over the neighbourhood");
 }
 
 /// The verdict on a plan, seen from elsewhere and with one robot less.
 void check_verdict(const PlanCase& plan_case, const PlanResult& result) {
   const Scene scene{plan_case.instance, result.solution};
-  const ValidationOptions options = promises_of(plan_case, result);
+  const ValidationOptions options = guarantees_of(plan_case, result);
   const auto valid = [&](const Scene& seen, double slower = 1) {
     ValidationOptions changed = options;
     changed.ssi_s *= slower;

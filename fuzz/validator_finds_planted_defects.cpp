@@ -124,12 +124,12 @@ void plant_overlap(const Plan& plan) {
 /// until then.
 void plant_intrusion(const Plan& plan, AgentIndex agent) {
   const auto& agents = plan.scene.instance.agents;
-  const Trajectory& way = plan.scene.solution.trajectories[agent];
+  const Trajectory& path = plan.scene.solution.trajectories[agent];
   for (AgentIndex other = 0; other < agents.size(); ++other) {
     if (other == agent) continue;
     const double near = agents[agent].radius_cells + agents[other].radius_cells - kDepthCells;
-    for (double time_s = 0; time_s <= way.arrival_s(); time_s += kSampleStepS) {
-      if (norm(sampled_position(way, time_s) - centre(agents[other].start)) >= near) continue;
+    for (double time_s = 0; time_s <= path.arrival_s(); time_s += kSampleStepS) {
+      if (norm(sampled_position(path, time_s) - centre(agents[other].start)) >= near) continue;
       ValidationOptions options;
       options.ssi_s = time_s + kSampleStepS;
       options.order = {agent, other};

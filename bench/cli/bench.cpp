@@ -331,7 +331,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
       ->type_name("X");
   add_solution_format(command, arguments.solution_format)->needs(planner);
   command.add_flag("--retime", arguments.retime,
-                   "judge plans with the earliest times for their ways and orders; keeps both");
+                   "judge plans with the earliest times for their paths and orders; keeps both");
   command.add_option("--seed", arguments.seed, "of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();

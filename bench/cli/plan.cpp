@@ -17,9 +17,7 @@
 #include "bench/interrupt.hpp"
 #include "planner/core/clock.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/tracker.hpp"
 #include "planner/retime/retime.hpp"
-#include "planner/retime/steps.hpp"
 #include "sipplab/instance_io.hpp"
 #include "sipplab/solution_io.hpp"
 #include "sipplab/solve.hpp"
@@ -31,11 +29,10 @@ namespace {
 struct PlanArguments {
   InstanceFlags instance;
   OptionFlags options;
-  std::optional<std::string> format;
+  SolutionOutput output;
   std::optional<std::string> solution;  ///< to begin with
   std::optional<std::string> solution_format;
   bool retime = false;
-  std::optional<std::string> output;
   PictureFlags picture;
   bool json = false;
 };
@@ -47,13 +44,6 @@ constexpr double kBestTimeLimitS = 30;
 constexpr std::size_t kCurveLines = 12;
 /// Ejections that are printed one by one; a run that fails may have thousands. --json has all.
 constexpr std::size_t kEjectionLines = 20;
-
-/// What -o means without --format: the file's extension, else XML.
-SolutionFormat output_format(const PlanArguments& arguments) {
-  if (arguments.format) return parse_solution_format(*arguments.format).value_or(SolutionFormat::kXml);
-  const std::string_view path = arguments.output ? *arguments.output : std::string_view{};
-  return parse_solution_format(path.substr(path.find_last_of('.') + 1)).value_or(SolutionFormat::kXml);
-}
 
 SolutionDocument document_of(const SolveResult& outcome, const PlannerOptions& options) {
   const PlanResult& result = outcome.plan;
@@ -121,9 +111,9 @@ std::string improvement_text(const ImprovementLog& log, double ssi_s) {
                                  log.iterations, format_objective(log.objective));
   text += gap_text("flowtime", curve.back().cost.flowtime_s, log.bound.flowtime_s);
   text += gap_text("makespan", curve.back().cost.makespan_s, log.bound.makespan_s);
-  text += log.keeps_promise
-              ? fmt::format("promise     start-safe interval {} s, in the final order\n", format_ssi(ssi_s))
-              : "promise     no collisions; start-safe intervals in no order\n";
+  text += log.keeps_guarantee
+              ? fmt::format("guarantee   start-safe interval {} s, in the final order\n", format_ssi(ssi_s))
+              : "guarantee   no collisions; start-safe intervals in no order\n";
   text += "curve       seconds  iteration    flowtime    makespan\n";
   const std::size_t stride = (curve.size() + kCurveLines - 2) / (kCurveLines - 1);
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -141,7 +131,7 @@ std::string summary(const SolutionDocument& document, const SolveResult& outcome
   if (document.makespan_s) text += fmt::format("makespan    {:.3f} s\n", *document.makespan_s);
   if (document.flowtime_s) text += fmt::format("flowtime    {:.3f} s\n", *document.flowtime_s);
   if (document.status == "solved" && document.made_by == name(Method::kComplete)) {
-    text += "made by     the complete planner\n";
+    text += "made by     LaCAM\n";
     if (document.ssi_kept_s) {
       text += fmt::format("ssi kept    {} of {} s\n", format_ssi(*document.ssi_kept_s),
                           format_ssi(document.options->ssi_s));
@@ -166,7 +156,7 @@ std::optional<std::string> draw(const PlanArguments& arguments, const Instance& 
   return error->message();
 }
 
-/// The plan in a file, with the earliest times for its ways where it was asked for or needed.
+/// The plan in a file, with the earliest times for its paths where it was asked for or needed.
 Expected<SolveResult, std::string> given_plan(const PlanArguments& arguments, const Instance& instance,
                                               const PlannerOptions& options) {
   const Input<SolutionDocument> document =
@@ -200,24 +190,13 @@ Expected<SolveResult, std::string> given_plan(const PlanArguments& arguments, co
   outcome.plan.planning_seconds = seconds_since(begin);
   if (options.improve) {
     PlannerOptions improving = options;
-    improving.ssi_s = 0;  // it promises nothing of starts
+    improving.ssi_s = 0;  // it guarantees nothing of starts
     outcome.improvement = improve(instance, outcome.plan.solution, outcome.plan.order(), improving);
   }
   return outcome;
 }
 
-/// The plan of the document as MAPF-tracker has it.
-Expected<std::string, std::string> tracker_text(const PlanArguments& arguments, const Instance& instance,
-                                                const SolutionDocument& document) {
-  const auto steps = discrete_steps(instance, document.solution);
-  if (!steps) {
-    return Unexpected{std::string(
-        "sipplab: the plan has other moves than along rows and columns, expected --method complete")};
-  }
-  return tracker_csv(instance, tracker_scenario(arguments.instance.robots_file()), *steps);
-}
-
-/// A plan that breaks a promise is an error of ours: it is drawn where a picture was
+/// A plan that breaks a guarantee is an error of ours: it is drawn where a picture was
 /// asked for, and written nowhere.
 int report_invalid(const PlanArguments& arguments, const Instance& instance, const SolveResult& outcome,
                    const ValidationReport& report, const PlannerOptions& options) {
@@ -248,21 +227,16 @@ int run_plan(const PlanArguments& arguments) {
                                   ? SIPPLAB_TRY_OR(fail, given_plan(arguments, instance, options))
                                   : solve(instance, options);
   if (outcome.is_solved()) {
-    const ValidationReport report = validate(instance, outcome.solution(), outcome.promises(options.rules));
+    const ValidationReport report = validate(instance, outcome.solution(), outcome.guarantees(options.rules));
     if (!report.valid()) return report_invalid(arguments, instance, outcome, report, options);
   }
 
   SolutionDocument document = document_of(outcome, options);
   if (arguments.solution) document.made_by.clear();
+  document.robots_file = arguments.instance.robots_file();
   std::string written;
-  if (arguments.format == "tracker") {
-    if (outcome.is_solved()) written = SIPPLAB_TRY_OR(fail, tracker_text(arguments, instance, document));
-  } else if (arguments.output || (arguments.format && !arguments.json)) {
-    written = write_solution(output_format(arguments), instance, document);
-  }
-  if (arguments.output) {
-    const std::string& text = written;
-    if (const auto error = write_file(*arguments.output, text)) return fail(error->message());
+  if (arguments.output.wanted()) {
+    written = SIPPLAB_TRY_OR(fail, arguments.output.write(instance, document));
   }
   const std::string subtitle =
       document.makespan_s ? fmt::format("{} robots, makespan {:.2f} s, flowtime {:.2f} s",
@@ -273,7 +247,7 @@ int run_plan(const PlanArguments& arguments) {
   }
   if (arguments.json) {
     print(solution_to_json(instance, document));
-  } else if (arguments.format && !arguments.output) {
+  } else if (arguments.output.format && !arguments.output.file) {
     print(written);
   } else {
     print(summary(document, outcome, instance));
@@ -297,11 +271,7 @@ Command add_plan_command(CLI::App& program) {
   command->add_flag("--retime", arguments->retime, "give it the earliest times though it is valid")
       ->needs(solution);
   command->option_defaults()->group("Output");
-  command
-      ->add_option("--format", arguments->format,
-                   "format of the solution; default: by the suffix of -o, else xml")
-      ->check(CLI::IsMember({"xml", "json", "csv", "tracker"}));
-  command->add_option("-o,--output", arguments->output, "write the solution there")->type_name("FILE");
+  arguments->output.add_to(*command);
   arguments->picture.add_to(*command, "draw the solution there");
   command->add_flag("--json", arguments->json, "print one JSON document");
   return {command, [arguments] { return run_plan(*arguments); }};

@@ -1,13 +1,12 @@
 #include "bench/cli/planner_flags.hpp"
 
-#include "sipplab/solution_io.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "bench/cli/console.hpp"
 #include "planner/io/text.hpp"
+#include "planner/io/text_file.hpp"
 
 namespace sipplab::cli {
 namespace {
@@ -144,9 +143,28 @@ void add_database_flag(CLI::App& command, std::optional<std::string>& path) {
 
 CLI::Option* add_solution_format(CLI::App& command, std::optional<std::string>& format) {
   std::vector<std::string> names;
-  for (const SolutionReader& reader : solution_readers()) names.emplace_back(reader.name);
+  for (const SolutionFormat& known : solution_formats()) names.emplace_back(known.name);
   return command.add_option("--solution-format", format, "format of the solution where guessing fails")
       ->check(CLI::IsMember(names));
+}
+
+void SolutionOutput::add_to(CLI::App& command) {
+  std::vector<std::string> names;
+  for (const SolutionFormat& known : solution_formats()) {
+    if (known.write != nullptr) names.emplace_back(known.name);
+  }
+  command.add_option("--format", format, "format of the solution; default: by the suffix of -o, else xml")
+      ->check(CLI::IsMember(names));
+  command.add_option("-o,--output", file, "write the solution there")->type_name("FILE");
+}
+
+Expected<std::string, std::string> SolutionOutput::write(const Instance& instance,
+                                                         const SolutionDocument& document) const {
+  const std::string named(format ? *format : solution_format_of_file(file.value_or("")));
+  auto text = write_solution(named, instance, document);
+  if (!text || !file) return text;
+  if (const auto error = write_file(*file, *text)) return Unexpected{error->message()};
+  return text;
 }
 
 }  // namespace sipplab::cli

@@ -11,6 +11,7 @@
 
 #include "planner/options/option_table.hpp"
 #include "sipplab/instance_io.hpp"
+#include "sipplab/solution_io.hpp"
 
 namespace sipplab::cli {
 
@@ -48,7 +49,18 @@ class OptionFlags {
   std::vector<OptionValues> values_;
 };
 
-/// --solution-format: a name of solution_readers().
+/// --format and -o: a solution to a file, or to standard output.
+struct SolutionOutput {
+  std::optional<std::string> format;  ///< a name of solution_formats() that is written
+  std::optional<std::string> file;
+
+  void add_to(CLI::App& command);
+  bool wanted() const { return format || file; }
+  /// The text, which is in the file now if one was named; or one line that says why not.
+  Expected<std::string, std::string> write(const Instance& instance, const SolutionDocument& document) const;
+};
+
+/// --solution-format: a name of solution_formats().
 CLI::Option* add_solution_format(CLI::App& command, std::optional<std::string>& format);
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.

@@ -26,9 +26,9 @@ int run_planners(bool json) {
                         planner.needs, "", planner.command);
   }
   text += "solutions: --solution-format NAME where guessing fails\n";
-  for (const SolutionReader& reader : solution_readers()) {
-    formats.push_back({{"name", reader.name}, {"words", reader.words}});
-    text += fmt::format("  {:<12} {}\n", reader.name, reader.words);
+  for (const SolutionFormat& format : solution_formats()) {
+    formats.push_back({{"name", format.name}, {"words", format.words}, {"written", format.write != nullptr}});
+    text += fmt::format("  {:<12} {}\n", format.name, format.words);
   }
   if (json) {
     print_json({{"planners", planners}, {"solution_formats", formats}});

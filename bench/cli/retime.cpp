@@ -22,8 +22,7 @@ struct RetimeArguments {
   std::string solution;
   std::optional<std::string> solution_format;
   OptionFlags motion;
-  std::optional<std::string> output;
-  std::optional<std::string> format;
+  SolutionOutput output;
   bool json = false;
 };
 
@@ -62,15 +61,15 @@ int run_retime(const RetimeArguments& arguments) {
   document.makespan_s = makespan_s(document.solution);
   document.flowtime_s = flowtime_s(document.solution);
   document.plan_hash = plan_hash(document.solution);
-  if (arguments.output) {
-    const std::string_view path = *arguments.output;
-    const auto format = parse_solution_format(
-        arguments.format.value_or(std::string(path.substr(path.find_last_of('.') + 1))));
-    const std::string text = write_solution(format.value_or(SolutionFormat::kXml), instance, document);
-    if (const auto error = write_file(*arguments.output, text)) return fail(error->message());
+  document.robots_file = arguments.instance.robots_file();
+  std::string written;
+  if (arguments.output.wanted()) {
+    written = SIPPLAB_TRY_OR(fail, arguments.output.write(instance, document));
   }
   if (arguments.json) {
     print(solution_to_json(instance, document));
+  } else if (arguments.output.format && !arguments.output.file) {
+    print(written);
   } else {
     print(given_text + fmt::format("retimed     {}, {} in {:.3f} s\n", report.valid() ? "valid" : "invalid",
                                    cost_text(document.solution), seconds));
@@ -84,19 +83,16 @@ int run_retime(const RetimeArguments& arguments) {
 Command add_retime_command(CLI::App& program) {
   auto arguments = std::make_shared<RetimeArguments>();
   CLI::App* command = program.add_subcommand(
-      "retime", "give a plan the earliest times for its ways and orders; exit code 1 if there are none");
+      "retime", "give a plan the earliest times for its paths and orders; exit code 1 if there are none");
   arguments->instance.add_to(*command);
   command->add_option("--solution", arguments->solution, "solution, ours or another program's")
       ->required()
       ->type_name("FILE");
   add_solution_format(*command, arguments->solution_format);
   arguments->motion.add_to(*command, {OptionGroup::kMotion});
-  command->add_option("-o,--output", arguments->output, "write the re-timed solution there")
-      ->type_name("FILE");
-  command->add_option("--format", arguments->format, "its format; default: by the suffix of -o, else xml")
-      ->check(CLI::IsMember({"xml", "json", "csv"}));
+  arguments->output.add_to(*command);
   command->add_flag("--json", arguments->json, "print it as one JSON document");
-  command->footer("Robots keep their ways, and who goes first wherever two of them meet.");
+  command->footer("Robots keep their paths, and who goes first wherever two of them meet.");
   return {command, [arguments] { return run_retime(*arguments); }};
 }
 

@@ -118,7 +118,7 @@ int run_validate(const ValidateArguments& arguments) {
   planned_with = arguments.motion.stated().applied_to(document.options.value_or(planned_with));
   options.ssi_s = planned_with.ssi_s;
   options.rules = planned_with.rules;
-  if (document.ssi_kept_s) options.ssi_s = *document.ssi_kept_s;  // all that it promises
+  if (document.ssi_kept_s) options.ssi_s = *document.ssi_kept_s;  // all that it guarantees
   if (arguments.ssi) options.ssi_s = parse_ssi(*arguments.ssi).value_or(0);
   if (options.ssi_s > 0) options.order = document.order;
   if (arguments.ssi && options.ssi_s > 0 && options.order.empty() && !loaded.instance.agents.empty()) {

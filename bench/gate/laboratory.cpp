@@ -110,7 +110,7 @@ Expected<std::uint64_t, std::string> Laboratory::once(GateTask task, const std::
                                     ? known->second
                                     : plans_.emplace(&instance, solve(instance, options)).first->second;
       return std::uint64_t{1} +
-             validate(instance, plan.solution(), plan.promises(options.rules)).violations.size();
+             validate(instance, plan.solution(), plan.guarantees(options.rules)).violations.size();
     }
     case GateTask::kRecord:
       return record();

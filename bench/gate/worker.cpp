@@ -98,7 +98,7 @@ class Worker {
     answer.row = described(job.options, solved);
     answer.row.peak_memory_bytes = bytes;
     if (check && solved.is_solved()) {
-      add_verdict(instance, solved.solution(), solved.promises(job.options.rules), answer.row);
+      add_verdict(instance, solved.solution(), solved.guarantees(job.options.rules), answer.row);
     }
     return to_json(answer);
   }

@@ -138,16 +138,12 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
   return text;
 }
 
-/// In the order in which people ask.
-constexpr const Metric* kInWords[] = {&kProcessTime, &kSuccess,      &kFlowtime, &kMakespan,     &kExpansions,
-                                      &kGenerations, &kInstructions, &kTries,    &kProcessMemory};
-
 /// Raises cells and the whole by their rows, and says why.
 void judge_metrics(Judgement& judgement, bool excused) {
   constexpr Verdict kOf[] = {Verdict::kRegressed, Verdict::kInconclusive, Verdict::kImproved};
   std::vector<std::string> said;
   for (const Verdict verdict : kOf) {
-    for (const Metric* metric : kInWords) {
+    for (const Metric* metric : kMetrics) {
       if (excused && metric->test == Test::kFreshPairs) continue;
       std::vector<const Difference*> rows;
       for (const Difference& row : judgement.differences) {
@@ -236,9 +232,9 @@ std::string words(const Difference& row) {
 
 std::string sight_text(const Judgement& judgement) {
   std::string text;
-  for (const Metric* metric : kInWords) {
+  for (const Metric* metric : kMetrics) {
     const Difference* row = judgement.find(*metric, std::nullopt);
-    if (row == nullptr || metric->test == Test::kFreshPairs || row->pairs.empty()) continue;
+    if (metric->value == nullptr || !metric->judges_pooled || row == nullptr || row->pairs.empty()) continue;
     // Where nothing differs, nothing is known of how changes scatter.
     if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
     const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
@@ -291,7 +287,8 @@ Judgement measured(std::vector<db::PairedCell> cells, std::vector<std::string> n
   std::stable_sort(
       judgement.findings.begin(), judgement.findings.end(),
       [&judgement](const Finding& a, const Finding& b) { return rank(judgement, a) < rank(judgement, b); });
-  for (const Metric* metric : kRecordedMetrics) {
+  for (const Metric* metric : kMetrics) {
+    if (metric->value == nullptr) continue;
     judgement.differences.push_back(measured(*metric, all, std::nullopt));
     for (std::size_t i = 0; i < all.size(); ++i) {
       judgement.differences.push_back(measured(*metric, {all[i]}, i));

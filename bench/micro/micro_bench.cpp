@@ -178,7 +178,7 @@ void earliest_departure(benchmark::State& state) {
 BENCHMARK(earliest_departure)->Name("reservation/earliest_departure");
 
 /// One goal and one far cell after the other: nothing is known of the goal yet.
-void static_detour(benchmark::State& state) {
+void static_distance(benchmark::State& state) {
   const GridMap map = warehouse_map();
   const LineOfSight lines(map, kDefaultRadiusCells);
   constexpr int kOctile = 3;
@@ -189,10 +189,10 @@ void static_detour(benchmark::State& state) {
     StaticDistances distances(map, lines, steps, kOctile);
     const MovePair& ends = moves[next++ % kInputs];
     distances.set_goal(ends.to);
-    benchmark::DoNotOptimize(distances.detour_cells(ends.from));
+    benchmark::DoNotOptimize(distances.excess_cells(ends.from));
   }
 }
-BENCHMARK(static_detour)->Name("grid/static_detour");
+BENCHMARK(static_distance)->Name("grid/static_distance");
 
 void search_once(benchmark::State& state, const Instance& instance, AgentIndex agent,
                  ReservationTable& reservations, const SippOptions& options = {}) {
@@ -221,15 +221,15 @@ void search_in_a_crowd(benchmark::State& state, const SippOptions& options) {
   if (crowd.ready(state)) search_once(state, crowd.instance, crowd.left_out, crowd.reservations, options);
 }
 
-/// Argument: 1 with the map's detours in the heuristic, 0 for the plain twin.
-void search_with_detours(benchmark::State& state) {
+/// Argument: 1 with the map's distances in the heuristic, 0 for the plain twin.
+void search_with_static_distances(benchmark::State& state) {
   SippOptions options;
-  options.detours = state.range(0) != 0;
+  options.static_distances = state.range(0) != 0;
   search_in_a_crowd(state, options);
 }
-BENCHMARK(search_with_detours)
+BENCHMARK(search_with_static_distances)
     ->Name("search/crowded")
-    ->ArgName("detours")
+    ->ArgName("static_distances")
     ->Arg(1)
     ->Arg(0)
     ->Unit(benchmark::kMicrosecond);

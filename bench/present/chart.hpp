@@ -85,7 +85,7 @@ enum class PictureFormat {
 /// What gnuplot is told. Names of any kind are safe in it.
 std::string gnuplot_script(const Chart& chart, PictureFormat format, const std::string& file);
 
-/// The bytes of a picture of each chart, about 25 ms each. A chart without a point is a frame
+/// The bytes of a picture of each chart, in one run of gnuplot. A chart without a point is a frame
 /// that says so. Errors: one line, if gnuplot is not installed or fails.
 Expected<std::vector<std::string>, std::string> pictures_of(const std::vector<Chart>& charts,
                                                             PictureFormat format);

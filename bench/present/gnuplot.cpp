@@ -24,6 +24,20 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
+/// Groups that hold nothing: gnuplot begins one for each colour, even for that of the picture before.
+void erase_empty_groups(std::string& text) {
+  constexpr std::string_view kEnd = ">\n</g>\n";
+  for (std::size_t at = 0; (at = text.find(kEnd, at)) != std::string::npos;) {
+    const std::size_t begin = text.rfind('\n', at) + 1;
+    if (text.compare(begin, 3, "<g ") == 0) {
+      text.erase(begin, at + kEnd.size() - begin);
+      at = begin;
+    } else {
+      ++at;
+    }
+  }
+}
+
 /// What gnuplot's SVG says of itself gives way to what the chart says; within a page its names are its own
 /// and its text has the page's colour.
 std::string own_svg(std::string text, const Chart& chart, bool within_page, std::size_t number) {
@@ -36,6 +50,7 @@ std::string own_svg(std::string text, const Chart& chart, bool within_page, std:
   }
   const std::size_t described = text.find("<desc>");
   if (described != std::string::npos) text.erase(described, text.find("</desc>") + 7 - described);
+  erase_empty_groups(text);
   if (!within_page) return text;
   text.erase(0, text.find("<svg"));
   const std::string own = fmt::format("c{}_", number);
@@ -78,19 +93,18 @@ Expected<std::vector<std::string>, std::string> pictures_of(const std::vector<Ch
   if (auto error = find_gnuplot_error()) return Unexpected{std::move(*error)};
   auto folder = TemporaryFolder::make();
   if (!folder) return Unexpected{std::move(folder.error())};
-  // A process for each: what one picture sets could show in the next.
-  std::vector<std::string> command{"/bin/sh", "-c", "for script; do gnuplot -d \"$script\" || exit; done",
-                                   "sh"};
+  // One process for all, which takes its time to start: what one picture sets is forgotten before the next.
+  std::string script;
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    const std::string picture = (folder->path() / std::to_string(i)).string();
-    command.push_back(picture + ".script");
-    const std::string script = gnuplot_script(charts[i], format, picture);
-    if (const auto error = write_file(command.back(), script)) return Unexpected{error->message()};
+    script += gnuplot_script(charts[i], format, (folder->path() / std::to_string(i)).string());
+    script += "\nunset output\nreset session\n";
   }
+  const std::string script_file = (folder->path() / "script").string();
+  if (const auto error = write_file(script_file, script)) return Unexpected{error->message()};
   const std::filesystem::path log = folder->path() / "log";
   // Files and language of its user would change the pictures.
-  const ProgramRun run =
-      run_program(command, {.environment = {"LC_ALL=C.UTF-8"}, .log = log, .all_to_log = true});
+  const ProgramRun run = run_program({"/bin/sh", "-c", "exec gnuplot -d \"$1\"", "sh", script_file},
+                                     {.environment = {"LC_ALL=C.UTF-8"}, .log = log, .all_to_log = true});
   if (run.exit_code != 0) {
     constexpr std::size_t kLastWords = 200;
     const auto said = read_text(log.string());

@@ -31,11 +31,11 @@ inline constexpr double kMaxRounding = 0.05;
 struct CommandPlannerSpec {
   std::string command;      ///< as the shell takes it, with placeholders
   std::string name;         ///< in the history: "cmd:NAME"
-  std::string format = {};  ///< of its solution, as sipplab::solution_readers() has it; empty: guessed
+  std::string format = {};  ///< of its solution, as sipplab::solution_formats() has it; empty: guessed
   std::uint64_t memory_limit_mib = kDefaultMemoryLimitMib;
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
   std::string no_plan = {};  ///< what it prints where the file that it leaves is no plan; empty: nothing
-  bool retime = false;       ///< judge its plan with the earliest times for its ways and orders
+  bool retime = false;       ///< judge its plan with the earliest times for its paths and orders
 };
 
 /// From "cmd:COMMAND", or "NAME:PATH" for a program of known_planners(). Named after its program, or the

@@ -54,7 +54,7 @@ SuiteBlock replaced(SuiteBlock block, const SweepRequest& request) {
   return block;
 }
 
-/// What the complete planner has no use for gets one value, so that cases are not planned
+/// What LaCAM has no use for gets one value, so that cases are not planned
 /// twice under two names.
 PlannerOptions without_idle_choices(PlannerOptions options) {
   if (options.method != Method::kComplete) return options;

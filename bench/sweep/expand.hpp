@@ -60,7 +60,7 @@ struct ExpandedSweep {
 };
 
 /// Makes or reads all instances. Errors: one line; also where an instance lies beyond the
-/// complete planner and a case asks for it.
+/// LaCAM and a case asks for it.
 Expected<ExpandedSweep, std::string> expand(const SweepRequest& request);
 
 }  // namespace sipplab::bench

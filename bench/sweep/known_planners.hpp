@@ -10,7 +10,7 @@ struct KnownPlanner {
   std::string_view name;          ///< "lacam3", as in --planner lacam3:PATH
   std::string_view words;         ///< what it is
   std::string_view command;       ///< with placeholders, {program} for the path
-  std::string_view format;        ///< of its solution, as sipplab::solution_readers() has it
+  std::string_view format;        ///< of its solution, as sipplab::solution_formats() has it
   std::string_view needs;         ///< of the instance and the machine, and how it is built
   std::string_view no_plan = {};  ///< what it prints where the file that it leaves is no plan
 };

@@ -192,7 +192,7 @@ db::ResultRow run_instance(const Instance& instance, const PlannerOptions& optio
     row.ssi_kept_s = 0;
     judge_retimed(instance, solved.solution(), options.rules, row);
   } else {
-    add_verdict(instance, solved.solution(), solved.promises(options.rules), row);
+    add_verdict(instance, solved.solution(), solved.guarantees(options.rules), row);
   }
   if (!solved.improvement) return row;
   row.progress = progress_rows(solved);

@@ -26,14 +26,14 @@ void add_solution(const Solution& solution, db::ResultRow& row);
 void add_verdict(const Instance& instance, const Solution& solution, const ValidationOptions& options,
                  db::ResultRow& row, double rounding = 0);
 
-/// The verdict on a plan with the earliest times for its ways and orders, and beside it what the plan was as
+/// The verdict on a plan with the earliest times for its paths and orders, and beside it what the plan was as
 /// given. Where no such times exist, status invalid and a message that begins with "not_executable".
 void judge_retimed(const Instance& instance, const Solution& given, const MotionRules& rules,
                    db::ResultRow& row, double rounding = 0);
 
-/// solve(), judged by the promises that are kept, with the curve of its improvement. Planning time is that of
-/// all steps. Where the clock ended the improvement, the result says so. With `retimed` the plan is re-timed,
-/// and keeps no promise of start-safe intervals.
+/// solve(), judged by the guarantees that are kept, with the curve of its improvement. Planning time is that
+/// of all steps. Where the clock ended the improvement, the result says so. With `retimed` the plan is
+/// re-timed, and keeps no guarantee of start-safe intervals.
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options, bool retimed = false);
 
 }  // namespace sipplab::bench

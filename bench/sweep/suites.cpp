@@ -150,7 +150,7 @@ std::vector<Suite> make_suites() {
        .adversarial_cases = true},
       // Densities at which prioritized planning has stopped.
       {.name = "dense",
-       .purpose = "crowded maps, up to 950 robots on 1024 cells, by the complete planner",
+       .purpose = "crowded maps, up to 950 robots on 1024 cells, by LaCAM",
        .instances = 20,
        .time_limit_s = kDenseLimitS,
        .blocks = {{kWarehouse, {128, 160, 192, 224, 256}, over("ssi 5"), complete},

@@ -75,7 +75,7 @@ printf '<root><agents number="2"><agent start.x="0" start.y="0" goal.x="4" goal.
 expect 1 plan --instance bay.xml --reschedule none --no-any-angle
 for format in xml json; do
   expect 0 plan --instance bay.xml --reschedule none --no-any-angle --fallback complete -o "bay.$format.out" --format "$format"
-  says '^made by     the complete planner'
+  says '^made by     LaCAM'
   expect 0 validate --instance bay.xml --solution "bay.$format.out"
   says '^valid.*start-safe interval [0-9.]+ kept'
 done
@@ -84,7 +84,7 @@ says '"made_by": "complete"' bay.json.out
 expect 0 plan --instance bay.xml --reschedule none --ssi 1,2 --fallback complete --json
 says '"tries": 3,'
 expect 0 plan --instance bay.xml --ssi 1,2 --max-restarts 0 --fallback complete
-says '^made by     the complete planner'
+says '^made by     LaCAM'
 expect 0 plan --instance bay.xml --method complete --json
 says '"tries": 1,'
 expect 0 plan --instance warehouse/0.xml --fallback complete --json
@@ -92,7 +92,7 @@ says '"made_by": "prioritized"'
 expect 1 plan --instance swap.xml --fallback complete
 says '^status      failed'
 sed 's/<agent /<agent movespeed="2" /' bay.xml >fast.xml
-refused 'speed 1, expected the speed of agent 0, 2, for the complete planner' plan --instance fast.xml --fallback complete
+refused 'speed 1, expected the speed of agent 0, 2, for LaCAM' plan --instance fast.xml --fallback complete
 refused 'headings, delays or inflation, expected none' plan --instance bay.xml --fallback complete --turns
 refused "'greedy', expected none or complete" plan --instance bay.xml --fallback greedy
 refused "'greedy', expected prioritized or complete" plan --instance bay.xml --method greedy

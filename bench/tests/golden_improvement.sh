@@ -96,7 +96,7 @@ equal "$(ask 'SELECT count(*), sum(abs(p.flowtime_bound_s - r.flowtime_bound_s) 
   FROM v_progress AS p JOIN v_results AS r USING (run, case_id, position, repetition)' | sed 's/^[1-9][0-9]*|/some|/')" 'some|0' \
   'the bounds of improvement are those of the instance'
 equal "$(ask 'SELECT count(DISTINCT flowtime_s) FROM v_progress WHERE iteration = 0')" 2 \
-  'curves begin with the plan of the complete planner, then that of another method'
+  'curves begin with the plan of LaCAM, then that of another method'
 expect 0 "${sweep[@]}" --no-best --improve 0.05s --objective makespan
 equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner LIKE '% improve:0.05s objective:makespan'")" \
   'time|solved' 'the clock ended the improvement'

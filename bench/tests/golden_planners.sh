@@ -99,7 +99,7 @@ E2
 sweeps names_its_file "${unlimited[@]}"
 equal "$(row names_its_file 'status, valid')" 'solved|1' 'a file with another name is found'
 
-# Straight ways at speed 1, in plain lines; the scenario has start and goal in columns 5 to 8.
+# Straight paths at speed 1, in plain lines; the scenario has start and goal in columns 5 to 8.
 planner straight <<'E2'
 awk 'NF > 8 { printf "robot %d: (%d,%d,0) -> (%d,%d,%.6f)\n", n++, $5, $6, $7, $8, sqrt(($7-$5)^2+($8-$6)^2) }' "$2" >"$3"
 E2
@@ -235,7 +235,7 @@ equal "$(row floods_output "status, message LIKE 'ended by signal 25%'")" 'faile
 refused "expected cmd:COMMAND" bench --planner "honest {task}"
 refused "expected \{task\}, \{instance\} or \{scen\}" bench --planner "cmd:honest {map}"
 
-# Plans in discrete time are judged with the earliest times for their ways, and kept as given beside that.
+# Plans in discrete time are judged with the earliest times for their paths, and kept as given beside that.
 planner stepwise <<'E2'
 exec "$sipplab" plan --task "$2" --method complete --format tracker -o "$3"
 E2
@@ -263,7 +263,7 @@ refused 'pbs:, expected pbs:PATH, the path of the program' bench --planner pbs: 
 refused '/nowhere/pbs: no such file, expected a program' bench --planner pbs:/nowhere/pbs --db planners.db
 expect 0 planners
 says 'lacam3 .*LaCAM3'
-says 'tracker-csv '
+says 'tracker '
 
 # Planners side by side: this one, and one that is named; as a table and as a page.
 mkdir paper

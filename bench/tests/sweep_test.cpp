@@ -1,4 +1,4 @@
-// What a sweep promises before anything is run or recorded: verdicts, names, the order
+// What a sweep guarantees before anything is run or recorded: verdicts, names, the order
 // of files, filters, and which cases a request means.
 #include <gtest/gtest.h>
 #include <linux/perf_event.h>

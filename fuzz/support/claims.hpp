@@ -34,7 +34,7 @@ enum class Claim : std::uint8_t {
   kClosedFormIsRight,       ///< unsafe times agree with distances and bisection
   kSightIsExact,            ///< line of sight agrees with whole numbers, both ways
   kTwinsAgree,              ///< fast path and plain twin give the same
-  kCompleteIsComplete,      ///< the complete planner solves exactly what an exhaustive search solves
+  kCompleteIsComplete,      ///< LaCAM solves exactly what an exhaustive search solves
   kImprovementIsNoWorse,    ///< an improved plan costs no more than the plan that was given
 };
 inline constexpr std::size_t kClaims = 24;

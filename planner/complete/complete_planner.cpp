@@ -35,25 +35,24 @@ std::string name_of(const Instance& instance, AgentIndex agent) {
 
 std::optional<InstanceError> find_beyond_complete(const Instance& instance, const MotionRules& rules) {
   if (!rules.is_plain()) {
-    return InstanceError{std::nullopt, std::nullopt, "headings, delays or inflation",
-                         "none for the complete planner"};
+    return InstanceError{std::nullopt, std::nullopt, "headings, delays or inflation", "none for LaCAM"};
   }
   if (!instance.obstacles.empty()) {
     return InstanceError{std::nullopt, std::size_t{0}, "the instance has dynamic obstacles",
-                         "none for the complete planner"};
+                         "none for LaCAM"};
   }
   for (AgentIndex i = 0; i < instance.agents.size(); ++i) {
     const Agent& agent = instance.agents[i];
     if (agent.radius_cells > kLargestRadiusCells + kTouchDepthCells) {
       return InstanceError{i, std::nullopt,
                            fmt::format("{}: radius {}", name_of(instance, i), agent.radius_cells),
-                           fmt::format("at most {} for the complete planner", kLargestRadiusCells)};
+                           fmt::format("at most {} for LaCAM", kLargestRadiusCells)};
     }
     const double speed = instance.agents.front().speed_cells_per_s;
     if (agent.speed_cells_per_s != speed) {
-      return InstanceError{
-          i, std::nullopt, fmt::format("{}: speed {}", name_of(instance, i), agent.speed_cells_per_s),
-          fmt::format("the speed of {}, {}, for the complete planner", name_of(instance, 0), speed)};
+      return InstanceError{i, std::nullopt,
+                           fmt::format("{}: speed {}", name_of(instance, i), agent.speed_cells_per_s),
+                           fmt::format("the speed of {}, {}, for LaCAM", name_of(instance, 0), speed)};
     }
   }
   return std::nullopt;

@@ -30,13 +30,13 @@ std::optional<InstanceError> find_beyond_complete(const Instance& instance, cons
 /// Plans all robots at once by unit moves between four neighbours, with waits.
 ///  (1) Solved exactly when there is such a plan, unless a limit strikes: time, steps,
 ///      kMaxSearchBytes of memory, or a request to stop. kUnsolvable is a proof.
-///  (2) The solution is valid; the promise of start-safe intervals holds for `order` in
+///  (2) The solution is valid; the guarantee of start-safe intervals holds for `order` in
 ///      [0, ssi_kept_s], and for no order longer (or as long as it was wanted).
 ///  (3) The same instance and options give the same result unless time is up.
 ///  (4) Of plans from a few seeds it is the one that costs least by options.objective.
 /// Of the options count the seed (of ties between cells), the objective, ssi_s (the order that is looked for
-/// keeps the promise at most as long), max_expansions (steps), the time limit and stop. No robot waits longer
-/// than the order of visits to each cell demands. REQUIRES: !find_error(instance) and
+/// keeps the guarantee at most as long), max_expansions (steps), the time limit and stop. No robot waits
+/// longer than the order of visits to each cell demands. REQUIRES: !find_error(instance) and
 /// !find_beyond_complete(instance).
 CompleteResult plan_complete(const Instance& instance, const PlannerOptions& options);
 

@@ -19,7 +19,7 @@ constexpr NodeId kNoNode = UINT32_MAX;
 constexpr double kCrowdedShare = 0.9;
 
 /// Longest paths after which robots go by plain distances: those that are left then stand in each other's
-/// way, and detours around traffic that is over keep them from getting past each other.
+/// way, and ways around traffic that is over keep them from getting past each other.
 constexpr std::uint64_t kGuidedLengths = 2;
 
 /// Constraints on one step out of a configuration: this one and those of all ancestors in
@@ -57,7 +57,8 @@ bool is_late(const LacamLimits& limits) {
 }
 
 /// Unit moves from each start to its goal; none if some goal cannot be reached.
-std::optional<std::vector<std::uint32_t>> way_lengths(GoalDistances& distances, const Configuration& starts) {
+std::optional<std::vector<std::uint32_t>> path_lengths(GoalDistances& distances,
+                                                       const Configuration& starts) {
   std::vector<std::uint32_t> lengths;
   for (RobotId robot = 0; robot < starts.size(); ++robot) {
     const auto length = distances.first_distance(robot, starts[robot]);
@@ -129,7 +130,7 @@ class Search {
   LacamResult run(const LacamLimits& limits) {
     LacamResult result;
     result.status = search(limits);
-    if (result.status == LacamStatus::kSolved) result.steps = way_to(stack_.back());
+    if (result.status == LacamStatus::kSolved) result.steps = path_to(stack_.back());
     result.steps_tried = steps_tried_;
     result.configurations = nodes_.size();
     return result;
@@ -226,7 +227,7 @@ class Search {
     return kNoNode;
   }
 
-  std::vector<Configuration> way_to(NodeId id) {
+  std::vector<Configuration> path_to(NodeId id) {
     std::vector<Configuration> steps;
     for (; id != kNoNode; id = nodes_[id].parent) steps.push_back(std::move(nodes_[id].cells));
     std::reverse(steps.begin(), steps.end());
@@ -253,7 +254,7 @@ class Search {
 
 Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals)
     : grid_(grid), starts_(std::move(starts)), goals_(std::move(goals)), distances_(grid, goals_) {
-  const auto lengths = way_lengths(distances_, starts_);
+  const auto lengths = path_lengths(distances_, starts_);
   is_solvable_ = lengths.has_value();
   if (!is_solvable_ || starts_.empty()) return;
   longest_ = *std::max_element(lengths->begin(), lengths->end());

@@ -177,7 +177,7 @@ Pibt::SideStep Pibt::side_steps(CellId pusher_cell, CellId puller_cell) const {
     const RobotId robot = robot_at_[cell];
     const bool settled = robot != kNoRobot && distances_.goal(robot) == cell;
     if (settled && grid_.neighbours(cell).size() == 1) continue;
-    ++steps.ways;
+    ++steps.paths;
     steps.cell = cell;
   }
   return steps;
@@ -187,8 +187,8 @@ Pibt::SideStep Pibt::side_steps(CellId pusher_cell, CellId puller_cell) const {
 bool Pibt::is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, CellId puller_cell) const {
   while (distances_.is_nearer(pusher, pusher_cell, puller_cell)) {
     const SideStep steps = side_steps(pusher_cell, puller_cell);
-    if (steps.ways >= 2) return false;
-    if (steps.ways == 0) break;
+    if (steps.paths >= 2) return false;
+    if (steps.paths == 0) break;
     pusher_cell = std::exchange(puller_cell, steps.cell);
   }
   return distances_.is_nearer(puller, puller_cell, pusher_cell) &&
@@ -201,8 +201,8 @@ bool Pibt::is_swap_possible(CellId pusher_cell, CellId puller_cell) const {
   const CellId begin = pusher_cell;
   while (puller_cell != begin) {
     const SideStep steps = side_steps(pusher_cell, puller_cell);
-    if (steps.ways >= 2) return true;
-    if (steps.ways == 0) return false;
+    if (steps.paths >= 2) return true;
+    if (steps.paths == 0) return false;
     pusher_cell = std::exchange(puller_cell, steps.cell);
   }
   return false;

@@ -97,7 +97,7 @@ class Pibt {
   bool is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, CellId puller_cell) const;
   bool is_swap_possible(CellId pusher_cell, CellId puller_cell) const;
   struct SideStep {
-    std::size_t ways = 0;  ///< out of the puller's cell, other than to the pusher
+    std::size_t paths = 0;  ///< out of the puller's cell, other than to the pusher
     CellId cell = kNoCell;
   };
   SideStep side_steps(CellId pusher_cell, CellId puller_cell) const;

@@ -11,7 +11,7 @@
 namespace sipplab {
 namespace {
 
-/// Seconds. Rounding of arrivals: a robot that comes near a start only when the promise ends breaks it by
+/// Seconds. Rounding of arrivals: a robot that comes near a start only when the guarantee ends breaks it by
 /// less.
 constexpr double kSameTimeS = 1e-9;
 
@@ -99,7 +99,7 @@ StartOrder longest_kept_order(const Instance& instance, const Visits& visits,
     (order_of_first(middle).size() == robots ? possible : impossible) = middle;
   }
   if (possible == all.size()) return {order_of_first(possible), wanted_s};
-  // Those that begin only when the promise ends need not be kept apart.
+  // Those that begin only when the guarantee ends need not be kept apart.
   const double kept_s = std::max(0.0, all[possible].from_s);
   const auto first_after =
       std::partition_point(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(possible),

@@ -13,7 +13,7 @@ int main() {
   options.improve = sipplab::parse_improve_budget("20i");
   const sipplab::SolveResult result = sipplab::solve(*instance, options);
   if (!result.is_solved()) return 1;
-  if (!sipplab::validate(*instance, result.solution(), result.promises(options.rules)).valid()) return 1;
+  if (!sipplab::validate(*instance, result.solution(), result.guarantees(options.rules)).valid()) return 1;
   std::printf("makespan %g s, flowtime %g s\n", sipplab::makespan_s(result.solution()),
               sipplab::flowtime_s(result.solution()));
   return 0;

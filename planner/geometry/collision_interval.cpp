@@ -24,28 +24,28 @@ struct Stretch {
   bool empty = true;
 };
 
-Stretch within_reach(Vec2 point, const Displacement& way, double reach) {
-  const Vec2 offset = point - way.from;
-  if (way.length == 0) {
+Stretch within_reach(Vec2 point, const Displacement& path, double reach) {
+  const Vec2 offset = point - path.from;
+  if (path.length == 0) {
     const double near = reach - kTouchDepthCells;
     if (near <= 0 || squared_norm(offset) >= near * near) return {};
     return {0, 0, false, false, false};
   }
-  const double aside = cross(way.direction, offset);
+  const double aside = cross(path.direction, offset);
   const double half_squared = reach * reach - aside * aside;
   // reach^2 - (reach - depth)^2 for a depth of kTouchDepthCells.
   if (half_squared <= 2 * reach * kTouchDepthCells) return {};
   const double half = std::sqrt(half_squared);
-  const double nearest = dot(way.direction, offset);
+  const double nearest = dot(path.direction, offset);
   const double enter = nearest - half;
   const double leave = nearest + half;
-  if (enter >= way.length - kTouchDepthCells || leave <= kTouchDepthCells) return {};
+  if (enter >= path.length - kTouchDepthCells || leave <= kTouchDepthCells) return {};
   Stretch stretch;
   stretch.empty = false;
   stretch.contact_at_begin = enter > -kTouchDepthCells;
-  stretch.contact_at_end = leave < way.length + kTouchDepthCells;
+  stretch.contact_at_end = leave < path.length + kTouchDepthCells;
   stretch.begin = std::max(enter, 0.0);
-  stretch.end = std::min(leave, way.length);
+  stretch.end = std::min(leave, path.length);
   return stretch;
 }
 
@@ -75,7 +75,7 @@ class Span {
 /// The obstacle is at an end of its motion, `end`, at `time_s`: the departures that
 /// bring the mover within reach of it at exactly that time.
 void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Span& span) {
-  const Stretch stretch = within_reach(end, move.way, reach);
+  const Stretch stretch = within_reach(end, move.path, reach);
   if (stretch.empty) return;
   span.add(time_s - stretch.begin * move.seconds_per_cell, stretch.contact_at_begin);
   span.add(time_s - stretch.end * move.seconds_per_cell, stretch.contact_at_end);
@@ -83,19 +83,19 @@ void add_obstacle_at(Vec2 end, double time_s, const Move& move, double reach, Sp
 
 /// The mover is at an end of its move, `after_s` seconds after departure.
 void add_mover_at(Vec2 end, double after_s, const MovingDisk& obstacle, double reach, Span& span) {
-  const Stretch stretch = within_reach(end, obstacle.way, reach);
+  const Stretch stretch = within_reach(end, obstacle.path, reach);
   if (stretch.empty) return;
-  const double seconds_per_cell = (obstacle.end_s - obstacle.begin_s) / obstacle.way.length;
+  const double seconds_per_cell = (obstacle.end_s - obstacle.begin_s) / obstacle.path.length;
   span.add(obstacle.begin_s + stretch.begin * seconds_per_cell - after_s, stretch.contact_at_begin);
   span.add(obstacle.begin_s + stretch.end * seconds_per_cell - after_s, stretch.contact_at_end);
 }
 
 /// Departures for which the two pass each other at exactly `reach`, both in motion.
 void add_tangents(const Move& move, const MovingDisk& obstacle, double reach, Span& span) {
-  if (std::abs(cross(obstacle.way.direction, move.way.direction)) < kParallelCross) return;
+  if (std::abs(cross(obstacle.path.direction, move.path.direction)) < kParallelCross) return;
   const Vec2 relative = move.velocity - obstacle.velocity;
   const double relative_squared = squared_norm(relative);
-  const Vec2 apart = move.way.from - obstacle.way.from;
+  const Vec2 apart = move.path.from - obstacle.path.from;
   const double turn = cross(obstacle.velocity, relative);
   const double middle = cross(apart, relative) / turn;
   const double half = std::abs(reach * std::sqrt(relative_squared) / turn);
@@ -112,7 +112,7 @@ void add_tangents(const Move& move, const MovingDisk& obstacle, double reach, Sp
 }  // namespace
 
 OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double reach) {
-  const Stretch stretch = within_reach(place, obstacle.way, reach);
+  const Stretch stretch = within_reach(place, obstacle.path, reach);
   if (stretch.empty) return {};
   if (obstacle.at_rest()) {
     // At rest there is no contact in time, only a beginning and an end.
@@ -128,7 +128,7 @@ namespace {
 
 /// An obstacle at rest is one point, within reach on one stretch of the move.
 OpenInterval unsafe_past_rest(const Move& move, const MovingDisk& obstacle, double reach) {
-  const Stretch stretch = within_reach(obstacle.from, move.way, reach);
+  const Stretch stretch = within_reach(obstacle.from, move.path, reach);
   if (stretch.empty) return {};
   const double slack_s = kContactSlackCells * move.seconds_per_cell;
   const double begin_s = obstacle.begin_s - stretch.end * move.seconds_per_cell;
@@ -144,10 +144,10 @@ namespace {
 
 OpenInterval unsafe_past_motion(const Move& move, const MovingDisk& obstacle, double reach, double slack_s) {
   Span span(slack_s);
-  add_obstacle_at(obstacle.way.from, obstacle.begin_s, move, reach, span);
-  add_obstacle_at(obstacle.way.to, obstacle.end_s, move, reach, span);
-  add_mover_at(move.way.from, 0, obstacle, reach, span);
-  add_mover_at(move.way.to, move.duration, obstacle, reach, span);
+  add_obstacle_at(obstacle.path.from, obstacle.begin_s, move, reach, span);
+  add_obstacle_at(obstacle.path.to, obstacle.end_s, move, reach, span);
+  add_mover_at(move.path.from, 0, obstacle, reach, span);
+  add_mover_at(move.path.to, move.duration, obstacle, reach, span);
   add_tangents(move, obstacle, reach, span);
   return span.interval();
 }
@@ -155,24 +155,24 @@ OpenInterval unsafe_past_motion(const Move& move, const MovingDisk& obstacle, do
 }  // namespace
 
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach) {
-  PLANNER_ASSERT(move.way.length > 0);
+  PLANNER_ASSERT(move.path.length > 0);
   if (obstacle.at_rest()) return unsafe_past_rest(move, obstacle, reach);
   return unsafe_past_motion(move, obstacle, reach, kContactSlackCells / std::max(move.speed, obstacle.speed));
 }
 
 OpenInterval meeting_interval(const Move& move, const MovingDisk& other, double reach) {
-  PLANNER_ASSERT(move.way.length > 0 && !other.at_rest());
+  PLANNER_ASSERT(move.path.length > 0 && !other.at_rest());
   return unsafe_past_motion(move, other, reach, 0);
 }
 
-bool reaches(const Displacement& way, Vec2 place, double reach) {
-  return !within_reach(place, way, reach).empty;
+bool reaches(const Displacement& path, Vec2 place, double reach) {
+  return !within_reach(place, path, reach).empty;
 }
 
-bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {
-  const Stretch inside = within_reach(place, way, reach);
+bool intrudes(const Displacement& path, Vec2 place, Vec2 pardoned, double reach) {
+  const Stretch inside = within_reach(place, path, reach);
   if (inside.empty) return false;
-  const Stretch excused = within_reach(pardoned, way, reach);
+  const Stretch excused = within_reach(pardoned, path, reach);
   if (excused.empty) return true;
   return inside.begin < excused.begin - kTouchDepthCells || inside.end > excused.end + kTouchDepthCells;
 }

@@ -34,22 +34,22 @@ OpenInterval collision_interval(Vec2 place, const MovingDisk& obstacle, double r
 /// during the move; contracts (1) to (3) hold with the faster of the two speeds.
 /// Endless if the obstacle rests for ever within reach of the move.
 ///
-/// REQUIRES: move.way.length > 0.
+/// REQUIRES: move.path.length > 0.
 OpenInterval unsafe_departures(const Move& move, const MovingDisk& obstacle, double reach);
 
 /// The same for two moves without slack (1)(2), for schedules in which robots touch one after the other: a
 /// thousand slacks would add up. With other.begin_s = 0 these are the departures of `move` relative to the
 /// other one's. (3) holds.
 ///
-/// REQUIRES: move.way.length > 0, and the other moves.
+/// REQUIRES: move.path.length > 0, and the other moves.
 OpenInterval meeting_interval(const Move& move, const MovingDisk& other, double reach);
 
-/// Whether `way` comes within reach of `place` (3). A `way` of no length is a point.
-bool reaches(const Displacement& way, Vec2 place, double reach);
+/// Whether `path` comes within reach of `place` (3). A `path` of no length is a point.
+bool reaches(const Displacement& path, Vec2 place, double reach);
 
-/// Whether `way` comes within reach of `place` outside the disk of radius `reach` around
-/// `pardoned`. A `way` of no length is a point.
-bool intrudes(const Displacement& way, Vec2 place, Vec2 pardoned, double reach);
+/// Whether `path` comes within reach of `place` outside the disk of radius `reach` around
+/// `pardoned`. A `path` of no length is a point.
+bool intrudes(const Displacement& path, Vec2 place, Vec2 pardoned, double reach);
 
 /// Cells. How far beyond their reach two disks may stay from each other at a departure
 /// that still counts as unsafe: an end of its interval may have moved outwards by the time
@@ -75,7 +75,7 @@ inline Closeness closeness(const Move& move, double departure_s, const MovingDis
   if (span_s * move.speed < -kNearMissCells) return Closeness::kApart;
   const double far = reach + kNearMissCells;
   const Vec2 relative = move.velocity - obstacle.velocity;
-  const Vec2 apart = (move.way.from + move.velocity * (begin_s - departure_s)) -
+  const Vec2 apart = (move.path.from + move.velocity * (begin_s - departure_s)) -
                      (obstacle.from + obstacle.velocity * (begin_s - obstacle.begin_s));
   const double approach = -dot(apart, relative);
   double squared = 0;  // the squared least distance times `scale`

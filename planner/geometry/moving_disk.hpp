@@ -14,9 +14,9 @@ struct Displacement {
 
   Displacement() = default;
   Displacement(Vec2 begin, Vec2 end) : from(begin), to(end) {
-    const Vec2 way = end - begin;
-    length = norm(way);
-    if (length > 0) direction = {way.x / length, way.y / length};
+    const Vec2 path = end - begin;
+    length = norm(path);
+    if (length > 0) direction = {path.x / length, path.y / length};
   }
   /// For callers that already know the direction and the length.
   Displacement(Vec2 begin, Vec2 end, Vec2 unit_direction, double length_cells)
@@ -25,21 +25,21 @@ struct Displacement {
 
 /// A displacement travelled at constant speed; the departure is left open.
 struct Move {
-  Displacement way;
+  Displacement path;
   double speed = 1;  ///< cells per second, > 0
   double seconds_per_cell = 1;
   double duration = 0;  ///< length / speed, in seconds
   Vec2 velocity;
 
   Move(const Displacement& displacement, double speed_cells_per_s)
-      : way(displacement),
+      : path(displacement),
         speed(speed_cells_per_s),
         seconds_per_cell(1 / speed_cells_per_s),
         duration(displacement.length / speed_cells_per_s),
         velocity(displacement.direction * speed_cells_per_s) {}
 };
 
-/// A disk that follows `way` during [begin_s, end_s]; at rest if `way` has no length,
+/// A disk that follows `path` during [begin_s, end_s]; at rest if `path` has no length,
 /// and then end_s may be kForever. The members that the overlap test reads come first,
 /// in one cache line.
 struct alignas(64) MovingDisk {
@@ -49,11 +49,11 @@ struct alignas(64) MovingDisk {
   double end_s = 0;
   double radius = 0;
   double speed = 0;  ///< length / (end_s - begin_s); 0 at rest
-  Displacement way;
+  Displacement path;
 
-  static MovingDisk moving(const Displacement& way, double begin_s, double end_s, double radius) {
-    const double speed = way.length > 0 ? way.length / (end_s - begin_s) : 0.0;
-    return {way.from, way.direction * speed, begin_s, end_s, radius, speed, way};
+  static MovingDisk moving(const Displacement& path, double begin_s, double end_s, double radius) {
+    const double speed = path.length > 0 ? path.length / (end_s - begin_s) : 0.0;
+    return {path.from, path.direction * speed, begin_s, end_s, radius, speed, path};
   }
   static MovingDisk resting(Vec2 place, double begin_s, double end_s, double radius) {
     return {place, {}, begin_s, end_s, radius, 0, Displacement(place, place)};

@@ -62,14 +62,14 @@ StaticDistances::Spread& StaticDistances::spread_of_goal() {
   return spread;
 }
 
-double StaticDistances::searched_detour_cells(Cell cell) {
+double StaticDistances::searched_excess_cells(Cell cell) {
   if (spread_ == nullptr) spread_ = &spread_of_goal();
   const Length& length = spread_->lengths[map_.index(cell)];
   while (length >> kCellBits >= spread_->level && spread_->open > 0) grow(*spread_);
   if (length == kFar) return kForever;
-  const double detour =
+  const double excess =
       std::ldexp(static_cast<double>(length), -kCellBits) - neighbourhood_distance(cell, goal_, k_);
-  return detour > kRoundingCells ? detour : 0;
+  return excess > kRoundingCells ? excess : 0;
 }
 
 std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {

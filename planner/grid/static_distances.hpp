@@ -31,8 +31,8 @@ class StaticDistances {
   /// Cells by which the shortest path from `cell` to the goal is longer than on an empty map: 0 or more;
   /// kForever if there is none. O(1) if everything between the two is free; else O(cells * steps) over
   /// all calls for a goal. REQUIRES: a goal is set, and the cell is legal.
-  double detour_cells(Cell cell) {
-    return is_open_ || line_of_sight_.is_open_between(cell, goal_) ? 0 : searched_detour_cells(cell);
+  double excess_cells(Cell cell) {
+    return is_open_ || line_of_sight_.is_open_between(cell, goal_) ? 0 : searched_excess_cells(cell);
   }
 
  private:
@@ -66,7 +66,7 @@ class StaticDistances {
 
   using Spreads = std::unordered_map<std::size_t, Spread>;  ///< by index of the goal
 
-  double searched_detour_cells(Cell cell);
+  double searched_excess_cells(Cell cell);
   /// What is known of goal_; a new spread if there is none.
   Spread& spread_of_goal();
   /// Empties the bucket of the level and goes on to the next.

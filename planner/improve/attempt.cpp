@@ -80,7 +80,7 @@ Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random) 
   attempt.rule = round.roulette.draw(random);
   const std::size_t most = kFewestRemoved + random.below(kMostRemoved - kFewestRemoved + 1);
   attempt.robots = choose_neighbourhood(
-      attempt.rule, {round.instance, plan, round.static_times_s, round.fastest_ways}, most, random);
+      attempt.rule, {round.instance, plan, round.static_times_s, round.fastest_paths}, most, random);
   random.shuffle(attempt.robots);
 
   Removal removal(attempt.robots, plan);

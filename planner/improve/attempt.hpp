@@ -15,9 +15,9 @@ struct Round {
   const Instance& instance;
   const Objective& objective;
   const RuleRoulette& roulette;
-  const std::vector<double>& static_times_s;    ///< by robot
-  const std::vector<Trajectory>& fastest_ways;  ///< by robot, alone on the map
-  PlanCost cost;                                ///< of the plan
+  const std::vector<double>& static_times_s;     ///< by robot
+  const std::vector<Trajectory>& fastest_paths;  ///< by robot, alone on the map
+  PlanCost cost;                                 ///< of the plan
   SearchLimits limits;
 };
 

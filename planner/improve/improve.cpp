@@ -56,7 +56,7 @@ class LargeNeighbourhoodSearch {
     }
     note_progress(done);
     result_.solution = plan().solution();
-    if (result_.log.keeps_promise) result_.order = plan().order();
+    if (result_.log.keeps_guarantee) result_.order = plan().order();
     return std::move(result_);
   }
 
@@ -64,7 +64,7 @@ class LargeNeighbourhoodSearch {
   const PartialPlan& plan() const { return *plans_.front(); }
 
   void fill(const Solution& given, const PriorityOrder& order, double ssi_s, Planners planners) {
-    result_.log.keeps_promise = ssi_s == options_.ssi_s;
+    result_.log.keeps_guarantee = ssi_s == options_.ssi_s;
     plans_.clear();
     for (SingleAgentPlanner* planner : planners) {
       PartialPlan& plan = *plans_.emplace_back(std::make_unique<PartialPlan>(instance_, ssi_s, *planner));
@@ -78,13 +78,13 @@ class LargeNeighbourhoodSearch {
     for (SingleAgentPlanner* planner : planners) {
       nobody.push_back(std::make_unique<PartialPlan>(instance_, 0, *planner));
     }
-    fastest_ways_.resize(instance_.agents.size());
+    fastest_paths_.resize(instance_.agents.size());
     std::vector<double> solo_cells(instance_.agents.size());
     std::vector<SearchStatistics> work(planners.size());
-    for_each_in_parallel(planners.size(), fastest_ways_.size(), [&](std::size_t worker, AgentIndex agent) {
+    for_each_in_parallel(planners.size(), fastest_paths_.size(), [&](std::size_t worker, AgentIndex agent) {
       Expected<Trajectory, PlanFailure> alone = nobody[worker]->find(agent, {}, work[worker]);
-      fastest_ways_[agent] = alone ? std::move(*alone) : plan().trajectory(agent);
-      solo_cells[agent] = length_cells(fastest_ways_[agent]);
+      fastest_paths_[agent] = alone ? std::move(*alone) : plan().trajectory(agent);
+      solo_cells[agent] = length_cells(fastest_paths_[agent]);
     });
     for (const SearchStatistics& done : work) result_.statistics += done;
     static_times_s_ = static_times_s(instance_, options_.any_angle, options_.connectedness, solo_cells,
@@ -104,7 +104,7 @@ class LargeNeighbourhoodSearch {
   /// Tries some neighbourhoods of the same plan, then takes over those that make it better, in
   /// the order of their numbers, so that it does not matter which thread tried which.
   void play_round(std::uint64_t iterations) {
-    const Round round{instance_, options_.objective, roulette_, static_times_s_, fastest_ways_, cost_,
+    const Round round{instance_, options_.objective, roulette_, static_times_s_, fastest_paths_, cost_,
                       limits_};
     std::vector<Attempt> attempts(iterations);
     for_each_in_parallel(plans_.size(), attempts.size(), [&](std::size_t worker, std::size_t i) {
@@ -142,7 +142,7 @@ class LargeNeighbourhoodSearch {
   Clock::time_point begin_;
   SearchLimits limits_;
   std::vector<std::unique_ptr<PartialPlan>> plans_;  ///< the same plan, once for each thread
-  std::vector<Trajectory> fastest_ways_;             ///< by robot
+  std::vector<Trajectory> fastest_paths_;            ///< by robot
   std::vector<double> static_times_s_;               ///< by robot
   RuleRoulette roulette_;
   PlanCost cost_;

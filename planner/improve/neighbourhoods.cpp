@@ -132,7 +132,7 @@ std::vector<AgentIndex> choose_neighbourhood(RemovalRule rule, const Neighbours&
       const AgentIndex first =
           rule == RemovalRule::kLast ? one_of_the_last(among, random) : draw_by(delay_weights(among), random);
       chosen.push_back(first);
-      add_some(chosen, among.plan.conflicts(first, among.fastest_ways[first]), most, random);
+      add_some(chosen, among.plan.conflicts(first, among.fastest_paths[first]), most, random);
       break;
     }
     case RemovalRule::kWindow: {

@@ -28,8 +28,8 @@ std::string_view name(RemovalRule rule);
 struct Neighbours {
   const Instance& instance;
   const PartialPlan& plan;
-  const std::vector<double>& static_times_s;    ///< by robot
-  const std::vector<Trajectory>& fastest_ways;  ///< by robot, alone on the map
+  const std::vector<double>& static_times_s;     ///< by robot
+  const std::vector<Trajectory>& fastest_paths;  ///< by robot, alone on the map
 };
 
 /// At least one robot and at most `most` of them, all different.

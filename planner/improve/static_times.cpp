@@ -74,11 +74,11 @@ double shortest_any_angle_cells(const GridMap& map, const LineOfSight& line_of_s
     for (std::size_t i = 1; i < corners.size(); ++i) {
       Corner& next = corners[i];
       if (next.is_settled) continue;
-      const double way = here.from_start + distance(here.cell, next.cell);
-      if (way >= next.from_start || way + next.to_goal >= shortest) continue;
+      const double path = here.from_start + distance(here.cell, next.cell);
+      if (path >= next.from_start || path + next.to_goal >= shortest) continue;
       if (!line_of_sight.is_clear(here.cell, next.cell)) continue;
-      next.from_start = way;
-      open.push({way + next.to_goal, i});
+      next.from_start = path;
+      open.push({path + next.to_goal, i});
     }
   }
   return shortest;
@@ -103,10 +103,10 @@ double shortest_grid_cells(const GridMap& map, const LineOfSight& line_of_sight,
     for (std::size_t i = 0; i < all.size(); ++i) {
       if ((clear >> i & 1) == 0) continue;
       const Cell next{here.x + all[i].x, here.y + all[i].y};
-      const double way = from_start[index] + distance(here, next);
-      if (way >= from_start[map.index(next)]) continue;
-      from_start[map.index(next)] = way;
-      open.push({way + neighbourhood_distance(next, to, k), map.index(next)});
+      const double path = from_start[index] + distance(here, next);
+      if (path >= from_start[map.index(next)]) continue;
+      from_start[map.index(next)] = path;
+      open.push({path + neighbourhood_distance(next, to, k), map.index(next)});
     }
   }
   return kForever;

@@ -1,6 +1,7 @@
 // Telling the formats of solutions apart: see solution_io.hpp.
 #include "sipplab/solution_io.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include "planner/io/solution_parts.hpp"
@@ -10,102 +11,83 @@
 
 namespace sipplab {
 
-std::optional<SolutionFormat> parse_solution_format(std::string_view text) {
-  if (text == "xml") return SolutionFormat::kXml;
-  if (text == "json") return SolutionFormat::kJson;
-  if (text == "csv") return SolutionFormat::kCsv;
-  return std::nullopt;
-}
-
-std::string write_solution(SolutionFormat format, const Instance& instance,
-                           const SolutionDocument& document) {
-  switch (format) {
-    case SolutionFormat::kXml:
-      return solution_to_xml(instance, document);
-    case SolutionFormat::kJson:
-      return solution_to_json(instance, document);
-    case SolutionFormat::kCsv:
-      return solution_to_csv(instance, document);
-  }
-  PLANNER_ASSERT(false);
-  return {};
-}
-
 namespace {
 
-using ParseSolution = Input<SolutionDocument> (*)(std::string_view, const std::string&, const Instance&);
+/// Characters that decide the format; none begins with more blanks than that.
+constexpr std::size_t kHeadLength = 4096;
 
-Input<SolutionDocument> parse_paths_by(std::string_view text, const std::string& file,
-                                       const Instance& instance, CellOrder order) {
+bool is_xml(std::string_view head) {
+  return head.substr(0, 1) == "<" || head.substr(0, 4) == "\xef\xbb\xbf<";
+}
+bool is_json(std::string_view head) { return head.substr(0, 1) == "{"; }
+bool is_csv(std::string_view head) { return head.substr(0, 5) == "agent"; }
+
+template <CellOrder order>
+Input<SolutionDocument> parse_paths(std::string_view text, const std::string& file,
+                                    const Instance& instance) {
   return parse_solution_paths(text, file, instance, order);
 }
 
-constexpr SolutionReader kReaders[] = {
-    {"xml", "XML in the style of AA-SIPP(m)'s log"},
-    {"json", "JSON of this program"},
-    {"csv", "CSV of this program"},
-    {"lines", "0: (3,4,0) (5,4,2): cells and times"},
-    {"aa-sipp", "the published AA-SIPP(m)'s log"},
-    {"ccbs", "Continuous-CBS' log"},
-    {"lacam", "result text of LaCAM, LaCAM2, LaCAM3 and PIBT"},
-    {"paths", "Agent 0: (3,4)->(3,5)->, rows or columns first, as they fit"},
-    {"eecbs", "the same, rows first: EECBS, CBSH2-RTC, PBS"},
-    {"mapf-lns2", "the same, rows first: MAPF-LNS, MAPF-LNS2"},
-    {"paths-xy", "the same, columns first"},
-    {"yaml", "schedule of libMultiRobotPlanning"},
-    {"tracker", "MAPF-tracker's moves, a line for each robot: 3ru2l"},
-    {"tracker-csv", "MAPF-tracker's table"},
-};
-constexpr ParseSolution kParsers[] = {
-    parse_solution_xml,
-    parse_solution_json,
-    parse_solution_csv,
-    parse_solution_plain,
-    parse_solution_xml,
-    parse_solution_xml,
-    parse_solution_lacam,
-    [](std::string_view text, const std::string& file, const Instance& instance) {
-      return parse_paths_by(text, file, instance, CellOrder::kGuess);
-    },
-    [](std::string_view text, const std::string& file, const Instance& instance) {
-      return parse_paths_by(text, file, instance, CellOrder::kRowsFirst);
-    },
-    [](std::string_view text, const std::string& file, const Instance& instance) {
-      return parse_paths_by(text, file, instance, CellOrder::kRowsFirst);
-    },
-    [](std::string_view text, const std::string& file, const Instance& instance) {
-      return parse_paths_by(text, file, instance, CellOrder::kColumnsFirst);
-    },
-    parse_solution_yaml,
-    parse_solution_tracker,
-    parse_solution_tracker_table,
-};
-static_assert(std::size(kReaders) == std::size(kParsers));
+/// A writer that can tell every solution.
+template <std::string (*write)(const Instance&, const SolutionDocument&)>
+Expected<std::string, std::string> always(const Instance& instance, const SolutionDocument& document) {
+  return write(instance, document);
+}
 
-/// The name of the format that a text begins in; empty for none.
-std::string_view guessed_format(std::string_view text) {
-  const std::string_view head = trimmed(text.substr(0, 4096));  // no format begins with more blanks than that
-  if (head.substr(0, 1) == "<" || head.substr(0, 4) == "\xef\xbb\xbf<") return "xml";
-  if (head.substr(0, 1) == "{") return "json";
-  if (is_path_solution(head)) return "paths";
-  if (is_plain_solution(head)) return "lines";
-  if (is_lacam_solution(head)) return "lacam";
-  if (is_tracker_table(head)) return "tracker-csv";
-  if (head.substr(0, 5) == "agent") return "csv";
-  if (is_yaml_solution(head)) return "yaml";
-  return is_tracker_solution(head) ? "tracker" : "";
+constexpr SolutionFormat kFormats[] = {
+    {"xml", "XML in the style of AA-SIPP(m)'s log", is_xml, parse_solution_xml, always<solution_to_xml>},
+    {"json", "JSON of this program", is_json, parse_solution_json, always<solution_to_json>},
+    {"paths", "Agent 0: (3,4)->(3,5)->, rows or columns first, as they fit", is_path_solution,
+     parse_paths<CellOrder::kGuess>},
+    {"lines", "0: (3,4,0) (5,4,2): cells and times", is_plain_solution, parse_solution_plain},
+    {"lacam", "result text of LaCAM, LaCAM2, LaCAM3 and PIBT", is_lacam_solution, parse_solution_lacam},
+    {"tracker", "MAPF-tracker's moves, a line for each robot: 3ru2l, or its table", is_tracker_solution,
+     parse_solution_tracker, solution_to_tracker},
+    {"csv", "CSV of this program", is_csv, parse_solution_csv, always<solution_to_csv>},
+    {"yaml", "schedule of libMultiRobotPlanning", is_yaml_solution, parse_solution_yaml},
+    {"aa-sipp", "the published AA-SIPP(m)'s log", nullptr, parse_solution_xml},
+    {"ccbs", "Continuous-CBS' log", nullptr, parse_solution_xml},
+    {"eecbs", "paths, rows first: EECBS, CBSH2-RTC, PBS", nullptr, parse_paths<CellOrder::kRowsFirst>},
+    {"mapf-lns2", "paths, rows first: MAPF-LNS, MAPF-LNS2", nullptr, parse_paths<CellOrder::kRowsFirst>},
+    {"paths-xy", "paths, columns first", nullptr, parse_paths<CellOrder::kColumnsFirst>},
+};
+
+const SolutionFormat* find_format(std::string_view name) {
+  const auto* const found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                         [&](const SolutionFormat& format) { return format.name == name; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+const SolutionFormat* guess_format(std::string_view text) {
+  const std::string_view head = trimmed(text.substr(0, kHeadLength));
+  const auto* const found = std::find_if(
+      std::begin(kFormats), std::end(kFormats),
+      [&](const SolutionFormat& format) { return format.begins_so != nullptr && format.begins_so(head); });
+  return found == std::end(kFormats) ? nullptr : found;
 }
 
 }  // namespace
 
-std::span<const SolutionReader> solution_readers() { return kReaders; }
+std::span<const SolutionFormat> solution_formats() { return kFormats; }
+
+std::string_view solution_format_of_file(std::string_view path) {
+  const SolutionFormat* const format = find_format(path.substr(path.find_last_of('.') + 1));
+  return format != nullptr && format->write != nullptr ? format->name : "xml";
+}
+
+Expected<std::string, std::string> write_solution(std::string_view format, const Instance& instance,
+                                                  const SolutionDocument& document) {
+  const SolutionFormat* const found = find_format(format);
+  if (found == nullptr || found->write == nullptr) {
+    return Unexpected{"no format " + in_quotes(format) + " is written"};
+  }
+  return found->write(instance, document);
+}
 
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
                                        const Instance& instance, std::string_view format) {
-  if (format.empty()) format = guessed_format(text);
-  for (std::size_t i = 0; i < std::size(kReaders); ++i) {
-    if (kReaders[i].name == format) return kParsers[i](text, file_name, instance);
-  }
+  const SolutionFormat* const found = format.empty() ? guess_format(text) : find_format(format);
+  if (found != nullptr) return found->parse(text, file_name, instance);
   return Unexpected{InputError{file_name, 1, text.empty() ? "empty file" : "not a solution",
                                "XML with <log>, a JSON object, CSV that begins with 'agent,id,t0', lines "
                                "such as '0: (3,4,0) (5,4,2)', or the plan of a program in discrete time"}};

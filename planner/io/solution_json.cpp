@@ -96,7 +96,7 @@ Json improvement_of(const ImprovementLog& log) {
       {"objective", format_objective(log.objective)},
       {"iterations", log.iterations},
       {"improvements", log.improvements},
-      {"ssi_promise", log.keeps_promise},
+      {"ssi_promise", log.keeps_guarantee},
       {"lower_bound", costs(log.bound.flowtime_s, log.bound.makespan_s)},
       {"gap", costs(gap(last.flowtime_s, log.bound.flowtime_s), gap(last.makespan_s, log.bound.makespan_s))},
       {"curve", Json::array()}};

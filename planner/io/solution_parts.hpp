@@ -31,14 +31,15 @@ Input<SolutionDocument> parse_solution_yaml(std::string_view text, const std::st
                                             const Instance& instance);
 Input<SolutionDocument> parse_solution_tracker(std::string_view text, const std::string& file_name,
                                                const Instance& instance);
-Input<SolutionDocument> parse_solution_tracker_table(std::string_view text, const std::string& file_name,
-                                                     const Instance& instance);
+/// MAPF-tracker's table: its header, and a row for a solution. Refused: moves that are not unit steps along
+/// rows and columns.
+Expected<std::string, std::string> solution_to_tracker(const Instance& instance,
+                                                       const SolutionDocument& document);
 /// Whether a text that begins so is one of them.
 bool is_lacam_solution(std::string_view head);
 bool is_path_solution(std::string_view head);
 bool is_yaml_solution(std::string_view head);
 bool is_tracker_solution(std::string_view head);
-bool is_tracker_table(std::string_view head);
 
 /// Whether the text begins as a solution in plain lines does: "0: (3,4,0)", or "# words".
 bool is_plain_solution(std::string_view head);

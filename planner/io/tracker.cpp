@@ -10,6 +10,7 @@
 #include "planner/io/solution_parts.hpp"
 #include "planner/io/step_plan.hpp"
 #include "planner/io/text.hpp"
+#include "planner/retime/steps.hpp"
 
 namespace sipplab {
 namespace {
@@ -262,11 +263,7 @@ Input<std::vector<TrackerRow>> parse_tracker_rows(std::string_view text, const s
   return rows;
 }
 
-bool is_tracker_solution(std::string_view head) {
-  const std::string_view line = trimmed(head.substr(0, head.find('\n')));
-  return !line.empty() && line.find_first_not_of("0123456789udlrwUDLRW") == std::string_view::npos &&
-         line.find_first_not_of("0123456789") != std::string_view::npos;
-}
+namespace {
 
 bool is_tracker_table(std::string_view head) {
   const std::string_view line = without_byte_order_mark(head).substr(0, head.find('\n'));
@@ -274,13 +271,9 @@ bool is_tracker_table(std::string_view head) {
          line.find("solution_plan") != std::string_view::npos;
 }
 
-Input<SolutionDocument> parse_solution_tracker(std::string_view text, const std::string& file_name,
-                                               const Instance& instance) {
-  return plan_of_moves(text, file_name, 1, instance, std::nullopt);
-}
-
-Input<SolutionDocument> parse_solution_tracker_table(std::string_view text, const std::string& file_name,
-                                                     const Instance& instance) {
+/// The first row that takes every robot of the instance to its goal, else the last of as many robots.
+Input<SolutionDocument> parse_tracker_table(std::string_view text, const std::string& file_name,
+                                            const Instance& instance) {
   TrackerTable table = table_of(text);
   const auto robots = static_cast<std::int64_t>(instance.agents.size());
   std::optional<Input<SolutionDocument>> last;
@@ -307,6 +300,32 @@ Input<SolutionDocument> parse_solution_tracker_table(std::string_view text, cons
   if (last) return std::move(*last);
   return Unexpected{InputError{file_name, 1, "no row of " + std::to_string(robots) + " agents",
                                "one with a plan of the instance"}};
+}
+
+}  // namespace
+
+bool is_tracker_solution(std::string_view head) {
+  if (is_tracker_table(head)) return true;
+  const std::string_view line = trimmed(head.substr(0, head.find('\n')));
+  return !line.empty() && line.find_first_not_of("0123456789udlrwUDLRW") == std::string_view::npos &&
+         line.find_first_not_of("0123456789") != std::string_view::npos;
+}
+
+Input<SolutionDocument> parse_solution_tracker(std::string_view text, const std::string& file_name,
+                                               const Instance& instance) {
+  if (is_tracker_table(text)) return parse_tracker_table(text, file_name, instance);
+  return plan_of_moves(text, file_name, 1, instance, std::nullopt);
+}
+
+Expected<std::string, std::string> solution_to_tracker(const Instance& instance,
+                                                       const SolutionDocument& document) {
+  if (document.status != "solved") return std::string(kTrackerHeader) + '\n';
+  const auto steps = discrete_steps(instance, document.solution);
+  if (!steps) {
+    return Unexpected{
+        std::string("the plan has other moves than along rows and columns, expected --method complete")};
+  }
+  return tracker_csv(instance, tracker_scenario(document.robots_file), *steps);
 }
 
 }  // namespace sipplab

@@ -27,8 +27,8 @@ bool overlap(const Agent& agent, const TimedMotion& mine, double other_radius_ce
              const TimedMotion& other) {
   const double reach = agent.radius_cells + other_radius_cells;
   if (are_apart(mine, other, reach)) return false;
-  const Displacement other_way(centre(other.from), centre(other.to));
-  const MovingDisk disk = MovingDisk::moving(other_way, other.begin_s, other.end_s, other_radius_cells);
+  const Displacement other_path(centre(other.from), centre(other.to));
+  const MovingDisk disk = MovingDisk::moving(other_path, other.begin_s, other.end_s, other_radius_cells);
   if (mine.is_wait()) {
     const OpenInterval near = collision_interval(centre(mine.from), disk, reach);
     return !near.empty() && near.begin_s < mine.end_s && near.end_s > mine.begin_s;

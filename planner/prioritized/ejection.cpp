@@ -61,7 +61,7 @@ class Ejection {
     result_.trace.push_back({{}, agent, {}});
     if (found.error() != PlanFailure::kNoPath) return censored();
     if (result_.trace.size() > max_restarts_ || limits_.is_over()) return censored();
-    Found forced = find_forced_way(agent);
+    Found forced = find_forced_path(agent);
     if (!forced) return forced.error() == PlanFailure::kNoPath ? false : censored();
     return make_room(agent, std::move(*forced));
   }
@@ -69,7 +69,7 @@ class Ejection {
   /// A path through all planned robots, except some that it would eject once more: each is held with a
   /// probability that grows with its past ejections by this robot. While there is no such path, half of those
   /// held are let go.
-  Found find_forced_way(AgentIndex agent) {
+  Found find_forced_path(AgentIndex agent) {
     std::vector<AgentIndex> held;
     for (const auto& [other, times] : ejected_by_[agent]) {
       if (plan_.is_planned(other) && random_.below(times + 1) > 0) held.push_back(other);
@@ -79,7 +79,7 @@ class Ejection {
       Found found = find(sketch_, agent);
       for (const AgentIndex other : held) sketch_.take_out(other);
       // Starts of held robots are not protected in the sketch.
-      if (found && (held.empty() || plan_.keeps_promise(agent, *found))) return found;
+      if (found && (held.empty() || plan_.keeps_guarantee(agent, *found))) return found;
       if (!found && (held.empty() || found.error() != PlanFailure::kNoPath)) return found;
       random_.shuffle(held);
       held.resize(held.size() / 2);
@@ -92,8 +92,8 @@ class Ejection {
   }
 
   /// Takes out those that block the robot and puts back those that need not go.
-  bool make_room(AgentIndex agent, Trajectory way) {
-    std::vector<AgentIndex> candidates = plan_.conflicts(agent, way);
+  bool make_room(AgentIndex agent, Trajectory path) {
+    std::vector<AgentIndex> candidates = plan_.conflicts(agent, path);
     std::stable_sort(candidates.begin(), candidates.end(),
                      [this](AgentIndex a, AgentIndex b) { return times_ejected_[a] > times_ejected_[b]; });
     std::vector<PartialPlan::Taken> taken;
@@ -102,17 +102,17 @@ class Ejection {
     for (PartialPlan::Taken& in_the_way : taken) {
       const AgentIndex candidate = in_the_way.agent;
       plan_.put_back(std::move(in_the_way));
-      if (plan_.still_fits(agent, way, candidate)) continue;
+      if (plan_.still_fits(agent, path, candidate)) continue;
       Found found = find(plan_, agent);
       if (found) {
-        way = std::move(*found);
+        path = std::move(*found);
         continue;
       }
       if (found.error() != PlanFailure::kNoPath) return censored();
       plan_.take_out(candidate);
       ejected.push_back(candidate);
     }
-    plan_.insert(agent, std::move(way));
+    plan_.insert(agent, std::move(path));
     waiting_.pop_front();
     for (auto next = ejected.rbegin(); next != ejected.rend(); ++next) waiting_.push_front(*next);
     bool may_go_on = true;

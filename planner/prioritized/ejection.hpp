@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kMostEjections = 1000;
 ///  (2) candidates are put back one by one, those ejected most often first, if the robot still finds a path;
 ///  (3) the others are ejected: the robot takes its path, and they are planned next.
 /// Keeping robots that were ejected often breaks cycles; a robot ejected `most_ejections` times ends the run
-/// as failed. The trace says which robot ejected which. The final order keeps the promise of start-safe
+/// as failed. The trace says which robot ejected which. The final order keeps the guarantee of start-safe
 /// intervals (StartPrecedence).
 /// REQUIRES: !find_error(instance), options.rescheduling == Rescheduling::kEjection,
 /// !options.rules.inflates().

@@ -81,7 +81,7 @@ std::vector<AgentIndex> PartialPlan::conflicts(AgentIndex agent, const Trajector
 }
 
 bool PartialPlan::still_fits(AgentIndex agent, const Trajectory& trajectory, AgentIndex other) {
-  return !are_in_conflict(agent, trajectory, other) && keeps_promise(agent, trajectory);
+  return !are_in_conflict(agent, trajectory, other) && keeps_guarantee(agent, trajectory);
 }
 
 Solution PartialPlan::solution() const {

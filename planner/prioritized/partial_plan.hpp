@@ -17,7 +17,7 @@
 namespace sipplab {
 
 /// Robots enter and leave it in any sequence. Its trajectories are free of conflicts. As long as each comes
-/// from find(), some order keeps the promise of start-safe intervals: see StartPrecedence.
+/// from find(), some order keeps the guarantee of start-safe intervals: see StartPrecedence.
 class PartialPlan {
  public:
   /// No robot is planned yet. Instance and planner must outlive it.
@@ -49,9 +49,9 @@ class PartialPlan {
   /// Planned robots whose trajectories are in conflict with this one, in input order.
   std::vector<AgentIndex> conflicts(AgentIndex agent, const Trajectory& trajectory) const;
 
-  /// Whether the promise of start-safe intervals could still be kept with this trajectory.
+  /// Whether the guarantee of start-safe intervals could still be kept with this trajectory.
   /// REQUIRES: the robot is not planned.
-  bool keeps_promise(AgentIndex agent, const Trajectory& trajectory) {
+  bool keeps_guarantee(AgentIndex agent, const Trajectory& trajectory) {
     return !precedence_.closes_cycle(agent, trajectory);
   }
   /// Whether a trajectory found while `other` was not planned may still be inserted now that it is.
@@ -60,8 +60,8 @@ class PartialPlan {
 
   /// REQUIRES: all robots are planned.
   Solution solution() const;
-  /// A final order of all robots that keeps the promise, near the sequence in which they were inserted last;
-  /// none if there is no such order.
+  /// A final order of all robots that keeps the guarantee, near the sequence in which they were inserted
+  /// last; none if there is no such order.
   std::optional<PriorityOrder> order() const;
 
  private:

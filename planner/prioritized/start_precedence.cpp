@@ -35,12 +35,12 @@ bool StartPrecedence::crosses(const Agent& agent, const TimedMotion& motion, con
   }
   const double reach = contact - kCrossingDepthCells;
   const Vec2 place = centre(owner.start);
-  const Displacement way(centre(motion.from), centre(motion.to));
+  const Displacement path(centre(motion.from), centre(motion.to));
   if (ssi_s_ == kInfiniteSsi &&
       disks_overlap(agent.goal, agent.radius_cells, owner.start, owner.radius_cells)) {
-    return intrudes(way, place, centre(agent.goal), contact);
+    return intrudes(path, place, centre(agent.goal), contact);
   }
-  const MovingDisk disk = MovingDisk::moving(way, motion.begin_s, motion.end_s, agent.radius_cells);
+  const MovingDisk disk = MovingDisk::moving(path, motion.begin_s, motion.end_s, agent.radius_cells);
   const OpenInterval near = collision_interval(place, disk, reach);
   return !near.empty() && near.begin_s < ssi_s_;
 }

@@ -1,4 +1,4 @@
-// Which orders of the robots keep the promise of start-safe intervals: a robot that comes near another
+// Which orders of the robots keep the guarantee of start-safe intervals: a robot that comes near another
 // robot's protected start must come after that robot. [AY18], section 3, for plans that were not made in one
 // pass over an order.
 #pragma once
@@ -15,7 +15,7 @@ namespace sipplab {
 
 /// A graph over the robots: an edge from `owner` to each robot that crosses the start of `owner` during
 /// [0, ssi_s]. While it has no cycle, any order in which edges lead from higher to lower priority keeps the
-/// promise for all its trajectories. A new trajectory closes no cycle if it keeps off the starts of the
+/// guarantee for all its trajectories. A new trajectory closes no cycle if it keeps off the starts of the
 /// robot's followers().
 class StartPrecedence {
  public:
@@ -34,7 +34,7 @@ class StartPrecedence {
   /// followers). REQUIRES: it has none now, and the robot has no trajectory.
   bool closes_cycle(AgentIndex agent, const Trajectory& trajectory);
 
-  /// An order of all robots that keeps the promise: of those that may come next, always the first in
+  /// An order of all robots that keeps the guarantee: of those that may come next, always the first in
   /// `preferred`. None if the graph has a cycle. O((robots + edges) log robots).
   /// REQUIRES: `preferred` is a permutation of the robots.
   std::optional<PriorityOrder> order(const PriorityOrder& preferred) const;

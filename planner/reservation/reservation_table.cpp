@@ -87,8 +87,8 @@ std::vector<ReservationTable::DiskId> ReservationTable::add(const Trajectory& tr
   std::vector<DiskId> ids;
   ids.reserve(trajectory.motions.size() + 1);
   for (const TimedMotion& motion : trajectory.motions) {
-    const Displacement way(centre(motion.from), centre(motion.to));
-    ids.push_back(add(MovingDisk::moving(way, motion.begin_s, motion.end_s, radius_cells)));
+    const Displacement path(centre(motion.from), centre(motion.to));
+    ids.push_back(add(MovingDisk::moving(path, motion.begin_s, motion.end_s, radius_cells)));
   }
   ids.push_back(
       add(MovingDisk::resting(centre(trajectory.end()), trajectory.end_s(), kForever, radius_cells)));
@@ -105,9 +105,9 @@ double ReservationTable::earliest_departure(Cell from, Cell to, double speed_cel
   return earliest_departure(move, radius_cells, from_s, until_s);
 }
 
-bool ReservationTable::is_kept_out(const Displacement& way, double radius_cells) const {
+bool ReservationTable::is_kept_out(const Displacement& path, double radius_cells) const {
   return std::any_of(keepouts_.begin(), keepouts_.end(), [&](const Keepout& keepout) {
-    return intrudes(way, keepout.place, keepout.pardoned, radius_cells + keepout.radius);
+    return intrudes(path, keepout.place, keepout.pardoned, radius_cells + keepout.radius);
   });
 }
 
@@ -167,7 +167,7 @@ bool ReservationTable::is_stopped(Question& question, double from_s, double to_s
   const auto test = [&](DiskId id) { return stands_in_the_way(question, id); };
   const Vec2 velocity = question.move.velocity;
   const Vec2 origin =
-      question.move.way.from + velocity * -question.departure_s;  // its place at time 0, extrapolated
+      question.move.path.from + velocity * -question.departure_s;  // its place at time 0, extrapolated
   const double windows_per_s = slices_.per_second() * static_cast<double>(std::int64_t{1} << question.splits);
   const double window_s = 1 / windows_per_s;
   for (auto window = static_cast<std::int64_t>(from_s * windows_per_s);; ++window) {
@@ -184,7 +184,7 @@ bool ReservationTable::is_stopped(Question& question, double from_s, double to_s
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
                                             double until_s, DiskId* likely_blocker) const {
-  if (from_s == kForever || (!keepouts_.empty() && is_kept_out(move.way, radius_cells))) return kForever;
+  if (from_s == kForever || (!keepouts_.empty() && is_kept_out(move.path, radius_cells))) return kForever;
   // Unsafe departures may reach this much beyond the time that is spent near a disk.
   const double slack_s = kNearMissCells * move.seconds_per_cell;
   const double margin_s = slack_s < slices_.margin_s() ? 0 : slack_s;  // entries are that much longer already

@@ -85,7 +85,7 @@ class ReservationTable final : public Reservations {
     Vec2 pardoned;
   };
   struct Question;
-  bool is_kept_out(const Displacement& way, double radius_cells) const;
+  bool is_kept_out(const Displacement& path, double radius_cells) const;
   /// The end of the disk's unsafe departures around departure_s, or departure_s if it is safe.
   double end_of_overlap(const Move& move, const MovingDisk& disk, double radius_cells,
                         double departure_s) const;

@@ -32,7 +32,7 @@ template <class Visit>
 void SafeTimes::for_each_cell_near(const MovingDisk& disk, Visit&& visit) const {
   const double reach = disk.radius + max_radius_;
   const Vec2 a = disk.from;
-  const Vec2 b = disk.way.to;
+  const Vec2 b = disk.path.to;
   const auto first_from = [](double low) { return static_cast<std::int32_t>(std::max(std::ceil(low), 0.0)); };
   const auto last_to = [](double high, std::int32_t most) {
     return static_cast<std::int32_t>(std::min(std::floor(high), static_cast<double>(most)));
@@ -40,7 +40,7 @@ void SafeTimes::for_each_cell_near(const MovingDisk& disk, Visit&& visit) const 
   const auto [left, right] = std::minmax(a.x, b.x);
   const auto [top, bottom] = std::minmax(a.y, b.y);
   // On a slanted move only a stretch of a row is within reach.
-  const Vec2 direction = disk.way.direction;
+  const Vec2 direction = disk.path.direction;
   const bool slanted = direction.y != 0;
   const double x_per_row = slanted ? direction.x / direction.y : 0;
   const double half = slanted ? std::abs(reach / direction.y) : 0;

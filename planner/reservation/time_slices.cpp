@@ -131,7 +131,7 @@ TimeSlices::Span TimeSlices::span_of(const MovingDisk& disk) const {
   const double last = (disk.end_s + time_margin_s_) * per_second_ + kMargin;
   const bool for_ever = disk.end_s == kForever;
   if (!((for_ever ? first : last) < kMostSlices) ||
-      (!for_ever && last - first > kLongestRest + kMostForCell * disk.way.length)) {
+      (!for_ever && last - first > kLongestRest + kMostForCell * disk.path.length)) {
     return {1, 0};
   }
   const auto begin = static_cast<std::size_t>(std::max(first, 0.0));
@@ -180,9 +180,9 @@ void TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
     }
     return;
   }
-  const Sweep all{disk.from, disk.way.to, disk.radius};
-  const Vec2 middle = (disk.from + disk.way.to) * 0.5;
-  const double radius = disk.radius + disk.way.length / 2 + disk.speed * time_margin_s_;
+  const Sweep all{disk.from, disk.path.to, disk.radius};
+  const Vec2 middle = (disk.from + disk.path.to) * 0.5;
+  const double radius = disk.radius + disk.path.length / 2 + disk.speed * time_margin_s_;
   if (others_.empty() || !others_.back().fits(all, blocks_)) others_.push_back(Slice(blocks_, arena_));
   others_.back().put({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(radius),
                       id, 0, 0, -1, 2},
@@ -192,7 +192,7 @@ void TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
 
 void TimeSlices::remove(const MovingDisk& disk, std::uint32_t id) {
   if (other_[id] != 0) {
-    others_[other_[id] - std::size_t{1}].remove(id, {disk.from, disk.way.to, disk.radius}, blocks_);
+    others_[other_[id] - std::size_t{1}].remove(id, {disk.from, disk.path.to, disk.radius}, blocks_);
     return;
   }
   const Span span = span_of(disk);

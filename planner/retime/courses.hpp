@@ -27,7 +27,7 @@ struct Course {
   std::vector<CourseMove> moves;
   Vec2 start;
 
-  Vec2 end() const { return moves.empty() ? start : moves.back().move.way.to; }
+  Vec2 end() const { return moves.empty() ? start : moves.back().move.path.to; }
 };
 
 /// Those of all robots, then those of the obstacles. A move takes what it takes in the plan where that is its

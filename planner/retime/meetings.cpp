@@ -60,15 +60,15 @@ class MoveBuckets {
 
   void buckets_of(const Course& course, std::uint32_t move, std::vector<std::uint64_t>& keys) const {
     keys.clear();
-    const Vec2 from = course.moves.empty() ? course.start : course.moves[move].move.way.from;
-    const Vec2 way = course.moves.empty() ? Vec2{} : course.moves[move].move.way.to - from;
-    const double parts = std::max(1.0, std::ceil(norm(way) * per_cell_));
+    const Vec2 from = course.moves.empty() ? course.start : course.moves[move].move.path.from;
+    const Vec2 path = course.moves.empty() ? Vec2{} : course.moves[move].move.path.to - from;
+    const double parts = std::max(1.0, std::ceil(norm(path) * per_cell_));
     const auto bucket = [this](double cells) {
       return static_cast<std::int64_t>(std::floor(cells * per_cell_));
     };
     for (double part = 0; part < parts; ++part) {
-      const Vec2 a = from + way * (part / parts);
-      const Vec2 b = from + way * ((part + 1) / parts);
+      const Vec2 a = from + path * (part / parts);
+      const Vec2 b = from + path * ((part + 1) / parts);
       const double reach = course.radius_cells;
       for (auto x = bucket(std::min(a.x, b.x) - reach); x <= bucket(std::max(a.x, b.x) + reach); ++x) {
         for (auto y = bucket(std::min(a.y, b.y) - reach); y <= bucket(std::max(a.y, b.y) + reach); ++y) {
@@ -123,10 +123,10 @@ class PairOfCourses {
     } else {
       found.lean = (2 * found.given_s - given.begin_s - given.end_s) / (given.end_s - given.begin_s);
     }
-    found.a_must_be_first = (a == 0 && reaches(second.move.way, a_.start, reach_)) ||
-                            (b + 1 == b_.moves.size() && reaches(first.move.way, b_.end(), reach_));
-    found.b_must_be_first = (b == 0 && reaches(first.move.way, b_.start, reach_)) ||
-                            (a + 1 == a_.moves.size() && reaches(second.move.way, a_.end(), reach_));
+    found.a_must_be_first = (a == 0 && reaches(second.move.path, a_.start, reach_)) ||
+                            (b + 1 == b_.moves.size() && reaches(first.move.path, b_.end(), reach_));
+    found.b_must_be_first = (b == 0 && reaches(first.move.path, b_.start, reach_)) ||
+                            (a + 1 == a_.moves.size() && reaches(second.move.path, a_.end(), reach_));
     found.group = static_cast<std::uint32_t>(encounters_.size());
     encounters_.push_back(found);
   }
@@ -148,7 +148,7 @@ class PairOfCourses {
       group.a_must = group.a_must || encounter.a_must_be_first;
       group.b_must = group.b_must || encounter.b_must_be_first;
       if (!group.a_must || !group.b_must) continue;
-      meetings.deadlock_place = a_.moves[encounter.a].move.way.to;
+      meetings.deadlock_place = a_.moves[encounter.a].move.path.to;
       return false;
     }
     for (const Encounter& encounter : encounters_) {
@@ -166,7 +166,7 @@ class PairOfCourses {
 
  private:
   OpenInterval unsafe_of(const Move& first, const Move& second) const {
-    return meeting_interval(second, MovingDisk::moving(first.way, 0, first.duration, a_.radius_cells),
+    return meeting_interval(second, MovingDisk::moving(first.path, 0, first.duration, a_.radius_cells),
                             reach_);
   }
 
@@ -181,8 +181,8 @@ class PairOfCourses {
     const double first_s = first.given_end_s - first.given_begin_s;
     const double second_s = second.given_end_s - second.given_begin_s;
     if (!(first_s > 0) || !(second_s > 0)) return {0, 0};  // at once: who begins first
-    const OpenInterval given = unsafe_of(Move(first.move.way, first.move.way.length / first_s),
-                                         Move(second.move.way, second.move.way.length / second_s));
+    const OpenInterval given = unsafe_of(Move(first.move.path, first.move.path.length / first_s),
+                                         Move(second.move.path, second.move.path.length / second_s));
     return given.empty() ? OpenInterval{0, 0} : given;
   }
 
@@ -214,13 +214,13 @@ class PairOfCourses {
       const Encounter& here = encounters_[i];
       if (i + 1 < encounters_.size() && encounters_[i + 1].a == here.a &&
           encounters_[i + 1].b == here.b + 1 &&
-          reaches(a_.moves[here.a].move.way, b_.moves[here.b].move.way.to, reach_)) {
+          reaches(a_.moves[here.a].move.path, b_.moves[here.b].move.path.to, reach_)) {
         encounters_[root(i + 1)].group = root(i);
       }
       const auto next =
           std::lower_bound(encounters_.begin() + i, encounters_.end(), std::pair{here.a + 1, here.b}, less);
       if (next != encounters_.end() && next->a == here.a + 1 && next->b == here.b &&
-          reaches(b_.moves[here.b].move.way, a_.moves[here.a].move.way.to, reach_)) {
+          reaches(b_.moves[here.b].move.path, a_.moves[here.a].move.path.to, reach_)) {
         encounters_[root(static_cast<std::uint32_t>(next - encounters_.begin()))].group = root(i);
       }
     }
@@ -236,7 +236,7 @@ class PairOfCourses {
 bool passes_standing(const Course& standing, const Course& other, std::uint32_t move) {
   const double reach = standing.radius_cells + other.radius_cells;
   if (other.moves.empty()) return reaches(Displacement(other.start, other.start), standing.start, reach);
-  return reaches(other.moves[move].move.way, standing.start, reach);
+  return reaches(other.moves[move].move.path, standing.start, reach);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Meetings {
 ///      without an overlap, and last whose lead is longer.
 /// Orders among fixed courses are left out. A move that the plan lets pass up to kGivenOverlapCells too early
 /// is let pass as early.
-/// O(moves + pairs of moves whose ways come near each other).
+/// O(moves + pairs of moves whose paths come near each other).
 Meetings find_meetings(const std::vector<Course>& courses);
 
 /// Cells. What the validator lets two bodies overlap without a word.

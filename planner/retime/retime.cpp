@@ -113,8 +113,8 @@ std::vector<RingMember> ring_of(const Instance& instance, const std::vector<Cour
     if (event == first.back()) continue;  // the beginning of time
     const auto course =
         static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), event) - first.begin() - 1);
-    const Displacement& way = courses[course].moves[event - first[course]].move.way;
-    const RingMember member = member_of(instance, course, cell_of(way.from), cell_of(way.to));
+    const Displacement& path = courses[course].moves[event - first[course]].move.path;
+    const RingMember member = member_of(instance, course, cell_of(path.from), cell_of(path.to));
     const auto is_same = [&](const RingMember& other) {
       return other.agent == member.agent && other.is_obstacle == member.is_obstacle;
     };

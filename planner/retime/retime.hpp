@@ -1,4 +1,4 @@
-// Anyone's plan with the earliest times that are right for disks: its ways stay, and who goes first wherever
+// Anyone's plan with the earliest times that are right for disks: its paths stay, and who goes first wherever
 // two bodies meet.
 #pragma once
 
@@ -33,7 +33,7 @@ struct RetimeResult {
 /// plan is not valid). Of all schedules that do so this is the least:
 ///  (1) every move begins as early as in any of them;
 ///  (2) a solution of a valid plan is valid, and no arrival is later than it was;
-///  (3) a solution of a plan with valid ways (static obstacles, starts, goals) is valid;
+///  (3) a solution of a plan with valid paths (static obstacles, starts, goals) is valid;
 ///  (4) there is no schedule exactly if there is a ring of bodies of which each has to wait for the next: one
 ///  of
 ///      as few as any through those of the ring that was found first.

@@ -46,10 +46,10 @@ std::optional<std::vector<std::vector<Cell>>> discrete_steps(const Instance& ins
   if (steps.size() != visits->size()) return std::nullopt;  // two robots that change places
   std::vector<std::vector<Cell>> cells(visits->robots());
   for (RobotId robot = 0; robot < visits->robots(); ++robot) {
-    std::vector<Cell>& way = cells[robot];
+    std::vector<Cell>& path = cells[robot];
     for (VisitId id = visits->first_of(robot); id != kNoVisit; id = (*visits)[id].after) {
-      while (static_cast<std::int64_t>(way.size()) < steps[id]) way.push_back(way.back());
-      way.push_back(grid.cell((*visits)[id].cell));
+      while (static_cast<std::int64_t>(path.size()) < steps[id]) path.push_back(path.back());
+      path.push_back(grid.cell((*visits)[id].cell));
     }
   }
   return cells;

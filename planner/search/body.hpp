@@ -16,8 +16,8 @@ namespace sipplab {
 /// Which moves and bounds a search uses.
 struct BodyOptions {
   bool any_angle = true;
-  int connectedness = 2;  ///< 2^k neighbours
-  bool detours = true;    ///< whether detour_cells() is used
+  int connectedness = 2;         ///< 2^k neighbours
+  bool static_distances = true;  ///< whether excess_cells() is used
 };
 
 class Body {
@@ -44,13 +44,13 @@ class Body {
   void set_goal(Cell goal) { distances_.set_goal(goal); }
 
   /// What the map's obstacles add to the robot's path from the cell to its goal, in cells. Straight distance
-  /// plus detour never exceeds the shortest path by steps. REQUIRES: options.detours.
-  double detour_cells(Cell cell) { return distances_.detour_cells(cell); }
+  /// plus the excess never exceeds the shortest path by steps. REQUIRES: options.static_distances.
+  double excess_cells(Cell cell) { return distances_.excess_cells(cell); }
 
-  /// A lower bound on the path by steps from the cell to the goal, in cells. `detour` is detour_cells(cell).
-  double least_steps_cells(Cell cell, Cell goal, double detour) const {
+  /// A lower bound on the path by steps from the cell to the goal, in cells. `excess` is excess_cells(cell).
+  double least_steps_cells(Cell cell, Cell goal, double excess) const {
     return std::max(neighbourhood_distance(cell, goal, connectedness_),
-                    neighbourhood_distance(cell, goal, static_connectedness_) + detour);
+                    neighbourhood_distance(cell, goal, static_connectedness_) + excess);
   }
 
   const LineOfSight line_of_sight;
@@ -59,8 +59,8 @@ class Body {
   static constexpr int kOctile = 3;
   /// Octile paths are closer to any-angle paths than Manhattan ones, and never longer.
   static int static_connectedness(BodyOptions options) {
-    return options.any_angle && options.detours ? std::max(options.connectedness, kOctile)
-                                                : options.connectedness;
+    return options.any_angle && options.static_distances ? std::max(options.connectedness, kOctile)
+                                                         : options.connectedness;
   }
 
   std::uint32_t own_steps_;

@@ -19,15 +19,15 @@ struct alignas(64) SippNode {
   double arrival_s = kForever;  ///< earliest known; kForever: not reached yet
   double departure_s = 0;       ///< from the parent, to arrive then
   double to_goal_s = 0;         ///< weighted heuristic: at most `weight` times the time by steps to the goal
-  /// No earlier departure is safe for the straight move from `way_from`, unless that node's arrival fell
+  /// No earlier departure is safe for the straight move from `edge_from`, unless that node's arrival fell
   /// since. Several neighbours of a cell have the same parent.
-  double way_departure_s = 0;
+  double edge_departure_s = 0;
   std::int16_t x = 0;
   std::int16_t y = 0;
   NodeId parent = kNoNode;
-  NodeId way_from = kNoNode;
+  NodeId edge_from = kNoNode;
   std::uint16_t version = 0;  ///< how often the arrival fell; stops at kLastVersion
-  std::uint16_t way_version = 0;
+  std::uint16_t edge_version = 0;
 
   Cell cell() const { return {x, y}; }
   /// REQUIRES: arrives_s <= arrival_s.
@@ -38,13 +38,13 @@ struct alignas(64) SippNode {
     arrival_s = arrives_s;
   }
   /// Whether `way_departure_s` holds for node `id`.
-  bool knows_way_from(NodeId id, const SippNode& from) const {
-    return way_from == id && way_version == from.version && from.version < kLastVersion;
+  bool knows_edge_from(NodeId id, const SippNode& from) const {
+    return edge_from == id && edge_version == from.version && from.version < kLastVersion;
   }
-  void know_way_from(NodeId id, std::uint16_t from_version, double departs_s) {
-    way_from = id;
-    way_version = from_version;
-    way_departure_s = departs_s;
+  void know_edge_from(NodeId id, std::uint16_t from_version, double departs_s) {
+    edge_from = id;
+    edge_version = from_version;
+    edge_departure_s = departs_s;
   }
   static constexpr std::uint16_t kLastVersion = UINT16_MAX;
 };

@@ -60,7 +60,7 @@ template <class Motion>
 Sipp<Motion>::Sipp(const Instance& instance, SippOptions options)
     : instance_(instance),
       options_(options),
-      bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.detours})),
+      bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.static_distances})),
       motion_(Agent{}, options_.rules),
       cell_nodes_(arena_),
       nodes_(arena_),
@@ -133,11 +133,11 @@ void Sipp<Motion>::begin(const Agent& agent, ReservationTable& reservations) {
   motion_ = Motion(agent, options_.rules);
   moving_radius_ = agent.radius_cells + options_.rules.inflate_distance_cells;
   body_ = &bodies_.at(agent.radius_cells);
-  if (options_.detours) body_->set_goal(agent.goal);
+  if (options_.static_distances) body_->set_goal(agent.goal);
   reservations_ = &reservations;
   ++search_;
   nodes_.clear();
-  shot_blocker_ = way_blocker_ = ReservationTable::kNoDisk;
+  shot_blocker_ = edge_blocker_ = ReservationTable::kNoDisk;
   const double least_s = heuristic_s(agent.start) + motion_.standing_s(agent.start, motion_.start_heading());
   open_.begin(options_.weight * least_s, kBucketCells / agent.speed_cells_per_s);
 }
@@ -166,11 +166,11 @@ template <class Motion>
 double Sipp<Motion>::heuristic_s(Cell cell) {
   const double line = line_cells(cell, agent_->goal);
   // The start is expanded first in any case, and is often the only node.
-  if (!options_.detours || cell == agent_->start) return seconds(line);
-  const double detour = body_->detour_cells(cell);
-  if (!options_.any_angle) return seconds(line + detour);
-  return seconds(std::min((Motion::kTurns ? 1 : kStretch) * (line + detour),
-                          body_->least_steps_cells(cell, agent_->goal, detour)));
+  if (!options_.static_distances || cell == agent_->start) return seconds(line);
+  const double excess = body_->excess_cells(cell);
+  if (!options_.any_angle) return seconds(line + excess);
+  return seconds(std::min((Motion::kTurns ? 1 : kStretch) * (line + excess),
+                          body_->least_steps_cells(cell, agent_->goal, excess)));
 }
 
 template <class Motion>
@@ -180,11 +180,11 @@ bool Sipp<Motion>::is_overtaken(const OpenList::Entry& entry) const {
   const double known_s = motion_.known_s(nodes_, entry.node, heading_of(nodes_[entry.from], node));
   if (entry.arrival_s != known_s) return entry.arrival_s > known_s;
   // Steps along a straight line may arrive sooner by rounding, and are then kept.
-  return entry.parent == kNoNode || !is_on_the_way(nodes_[entry.parent], nodes_[entry.from], node);
+  return entry.parent == kNoNode || !lies_between(nodes_[entry.parent], nodes_[entry.from], node);
 }
 
 template <class Motion>
-bool Sipp<Motion>::is_on_the_way(const Node& first, const Node& middle, const Node& last) {
+bool Sipp<Motion>::lies_between(const Node& first, const Node& middle, const Node& last) {
   const std::int32_t x = middle.x - first.x, y = middle.y - first.y;
   const std::int32_t next_x = last.x - middle.x, next_y = last.y - middle.y;
   return std::int64_t{x} * next_y == std::int64_t{y} * next_x &&
@@ -192,7 +192,7 @@ bool Sipp<Motion>::is_on_the_way(const Node& first, const Node& middle, const No
 }
 
 template <class Motion>
-typename Sipp<Motion>::Way Sipp<Motion>::way(NodeId from, Cell to, double cells) const {
+typename Sipp<Motion>::Edge Sipp<Motion>::edge(NodeId from, Cell to, double cells) const {
   const Node& node = nodes_[from];
   const double travel_s = seconds(cells);
   const Heading heading = motion_.heading(node.cell(), to);
@@ -210,12 +210,12 @@ void Sipp<Motion>::expand(NodeId id) {
     const auto index = static_cast<std::size_t>(std::countr_zero(clear));
     const Cell cell{here.x + steps[index].x, here.y + steps[index].y};
     const CellNodes& targets = nodes_of(cell);
-    const Way step = way(id, cell, step_lengths_[index]);
+    const Edge step = edge(id, cell, step_lengths_[index]);
     if (parent == kNoNode || there == cell) {
       offer(step, kNoNode, targets.first, targets.last);
       continue;
     }
-    Way straight = way(parent, cell, distance(there, cell));
+    Edge straight = edge(parent, cell, distance(there, cell));
     if constexpr (Motion::kTurns) {
       // The two arrive with different headings: each is a separate successor.
       offer(step, kNoNode, targets.first, targets.last);
@@ -240,16 +240,16 @@ void Sipp<Motion>::expand(NodeId id) {
 }
 
 template <class Motion>
-void Sipp<Motion>::offer(const Way& way, NodeId parent, NodeId target, NodeId last) {
-  for (; target != last && nodes_[target].interval.begin_s <= way.latest_s; ++target) {
+void Sipp<Motion>::offer(const Edge& edge, NodeId parent, NodeId target, NodeId last) {
+  for (; target != last && nodes_[target].interval.begin_s <= edge.latest_s; ++target) {
     const Node& node = nodes_[target];
-    double soonest_s = way.soonest_s;
-    if (parent != kNoNode && node.knows_way_from(parent, nodes_[parent])) {
-      soonest_s = std::min(std::max(soonest_s, node.way_departure_s + way.travel_s), way.step_soonest_s);
+    double soonest_s = edge.soonest_s;
+    if (parent != kNoNode && node.knows_edge_from(parent, nodes_[parent])) {
+      soonest_s = std::min(std::max(soonest_s, node.edge_departure_s + edge.travel_s), edge.step_soonest_s);
     }
-    if (!may_gain(target, way.heading, soonest_s)) continue;
+    if (!may_gain(target, edge.heading, soonest_s)) continue;
     soonest_s = std::max(soonest_s, node.interval.begin_s);
-    open_.push_lazy(target, soonest_s + to_goal_s(target, way.heading), soonest_s, way.from, parent);
+    open_.push_lazy(target, soonest_s + to_goal_s(target, edge.heading), soonest_s, edge.from, parent);
   }
 }
 
@@ -257,13 +257,13 @@ template <class Motion>
 NodeId Sipp<Motion>::evaluate(NodeId from, NodeId parent, NodeId id) {
   // If both moves arrive together, the one from the nearer node is kept: it leaves the cells behind it sooner
   // (trials on the paper's warehouse: 1 % less flowtime).
-  const bool on_the_way = parent != kNoNode && is_on_the_way(nodes_[parent], nodes_[from], nodes_[id]);
+  const bool between = parent != kNoNode && lies_between(nodes_[parent], nodes_[from], nodes_[id]);
   NodeId reached = kNoNode;
-  if (parent != kNoNode && !on_the_way) reached = arrive_straight(parent, id);
+  if (parent != kNoNode && !between) reached = arrive_straight(parent, id);
   const NodeId by_step = arrive_by_step(from, id, reached == kNoNode ? Tie::kKeep : Tie::kReplace);
   if (by_step != kNoNode) reached = by_step;
   // Without a wait the step is as good as the straight move.
-  if (on_the_way && (by_step == kNoNode || nodes_[by_step].departure_s != nodes_[from].arrival_s)) {
+  if (between && (by_step == kNoNode || nodes_[by_step].departure_s != nodes_[from].arrival_s)) {
     if (const NodeId straight = arrive_straight(parent, id); straight != kNoNode) reached = straight;
   }
   if (reached != kNoNode) ++statistics_->generations;
@@ -274,10 +274,10 @@ template <class Motion>
 NodeId Sipp<Motion>::arrive_straight(NodeId parent, NodeId id) {
   const std::uint16_t version = nodes_[parent].version;
   const Node& target = nodes_[id];
-  const double known_s = target.knows_way_from(parent, nodes_[parent]) ? target.way_departure_s : 0;
+  const double known_s = target.knows_edge_from(parent, nodes_[parent]) ? target.edge_departure_s : 0;
   double departure_s = 0;
-  const NodeId reached = arrive(parent, id, known_s, Tie::kKeep, &way_blocker_, departure_s);
-  if (departure_s > 0) nodes_[id].know_way_from(parent, version, departure_s);
+  const NodeId reached = arrive(parent, id, known_s, Tie::kKeep, &edge_blocker_, departure_s);
+  if (departure_s > 0) nodes_[id].know_edge_from(parent, version, departure_s);
   return reached;
 }
 
@@ -373,7 +373,7 @@ void Sipp<Motion>::join_lines(Stops& stops) {
   for (std::size_t i = 0; i < stops.size(); ++i) {
     Node stop = stops[i];
     if (size >= 2 && stop.departure_s == stops[size - 1].arrival_s &&
-        is_on_the_way(stops[size - 2], stops[size - 1], stop)) {
+        lies_between(stops[size - 2], stops[size - 1], stop)) {
       stop.departure_s = stops[--size].departure_s;
     }
     stops[size++] = stop;
@@ -388,33 +388,34 @@ void Sipp<Motion>::pull_tight(Stops& stops) {
     while (k >= i + 2 && !reroute(stops, i, k, nullptr, stops[k].arrival_s)) --k;
   }
   for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
-    const Cell bend = stops[i].cell();
-    const double way_s = seconds(distance(stops[i - 1].cell(), bend) + distance(bend, stops[i + 1].cell()));
-    if (stops[i + 1].arrival_s - stops[i - 1].arrival_s > kMostWaiting * way_s) continue;
+    const Cell turning_point = stops[i].cell();
+    const double path_s =
+        seconds(distance(stops[i - 1].cell(), turning_point) + distance(turning_point, stops[i + 1].cell()));
+    if (stops[i + 1].arrival_s - stops[i - 1].arrival_s > kMostWaiting * path_s) continue;
     for (const Cell step : neighbourhood(kStepsAside)) {
       Node beside = stops[i];
-      beside.x = static_cast<std::int16_t>(bend.x + step.x);
-      beside.y = static_cast<std::int16_t>(bend.y + step.y);
+      beside.x = static_cast<std::int16_t>(turning_point.x + step.x);
+      beside.y = static_cast<std::int16_t>(turning_point.y + step.y);
       reroute(stops, i - 1, i + 1, &beside, stops[i + 1].arrival_s - kWorthS);
     }
   }
 }
 
 template <class Motion>
-bool Sipp<Motion>::reroute(Stops& stops, std::size_t i, std::size_t k, Node* bend, double latest_s) {
+bool Sipp<Motion>::reroute(Stops& stops, std::size_t i, std::size_t k, Node* via, double latest_s) {
   Node last = stops[k];
   const Node* from = &stops[i];
-  if (bend != nullptr) {
-    if (!body_->line_of_sight.is_legal(bend->cell())) return false;
-    const double by_s = latest_s - seconds(distance(bend->cell(), last.cell()));
+  if (via != nullptr) {
+    if (!body_->line_of_sight.is_legal(via->cell())) return false;
+    const double by_s = latest_s - seconds(distance(via->cell(), last.cell()));
     const auto enters = [&](const SafeInterval& interval) {
-      bend->interval = interval;
-      return move(*from, *bend, by_s, &way_blocker_);
+      via->interval = interval;
+      return move(*from, *via, by_s, &edge_blocker_);
     };
-    if (!std::ranges::any_of(reservations_->safe_intervals(bend->cell(), agent_->radius_cells), enters)) {
+    if (!std::ranges::any_of(reservations_->safe_intervals(via->cell(), agent_->radius_cells), enters)) {
       return false;
     }
-    from = bend;
+    from = via;
   }
   if (!move(*from, last, latest_s, &shot_blocker_)) return false;
   if constexpr (Motion::kTurns) {  // with another heading it may depart later although it came sooner
@@ -427,14 +428,14 @@ bool Sipp<Motion>::reroute(Stops& stops, std::size_t i, std::size_t k, Node* ben
     }
   }
   stops[k] = last;
-  if (bend != nullptr) {
-    stops[i + 1] = *bend;
+  if (via != nullptr) {
+    stops[i + 1] = *via;
   } else {
     stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                 stops.begin() + static_cast<std::ptrdiff_t>(k));
   }
   // Later stops are left as early as is safe.
-  for (std::size_t to = i + (bend != nullptr ? 3 : 2); to < stops.size(); ++to) {
+  for (std::size_t to = i + (via != nullptr ? 3 : 2); to < stops.size(); ++to) {
     const double departed_s = stops[to].departure_s;
     if (!move(stops[to - 1], stops[to], stops[to].arrival_s) || stops[to].departure_s == departed_s) break;
   }

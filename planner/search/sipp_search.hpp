@@ -26,7 +26,7 @@ struct SippOptions {
   /// Use the static distance heuristic: add what the map's obstacles add to a lone robot's path by steps, and
   /// stretch the sum for any-angle search. No path by steps takes less, but an any-angle path may, and may be
   /// missed if it alone meets a latest arrival. Off: the plain distance, as on an empty map.
-  bool detours = true;
+  bool static_distances = true;
   /// Any-angle only: pull the path tight. Turning points are left out or moved to a cell beside them if that
   /// is safe; the robot is no later at any stop.
   bool elastic = true;
@@ -59,7 +59,7 @@ class Sipp final : public SingleAgentPlanner {
     NodeId last = kNoNode;  ///< one past
   };
   /// A straight move to a cell, and when it may end.
-  struct Way {
+  struct Edge {
     NodeId from;
     Heading heading;
     double travel_s;
@@ -103,13 +103,13 @@ class Sipp final : public SingleAgentPlanner {
     return motion_.heading(from.cell(), to.cell());
   }
   /// Whether `middle` lies on the straight line between the other two.
-  static bool is_on_the_way(const Node& first, const Node& middle, const Node& last);
+  static bool lies_between(const Node& first, const Node& middle, const Node& last);
 
   void expand(NodeId id);
-  Way way(NodeId from, Cell to, double cells) const;
+  Edge edge(NodeId from, Cell to, double cells) const;
   /// Queues the nodes of a cell at which the move may arrive earlier than known. With a parent they may be
-  /// reached straight from it, or by the step from way.from.
-  void offer(const Way& way, NodeId parent, NodeId target, NodeId last);
+  /// reached straight from it, or by the step from edge.from.
+  void offer(const Edge& edge, NodeId parent, NodeId target, NodeId last);
   /// Whether an arrival at `soonest_s` or later may be in the interval and earlier than the known one.
   bool may_gain(NodeId id, Heading heading, double soonest_s) const {
     const SafeInterval& interval = nodes_[id].interval;
@@ -146,9 +146,9 @@ class Sipp final : public SingleAgentPlanner {
   static void join_lines(Stops& stops);
   /// See SippOptions::elastic.
   void pull_tight(Stops& stops);
-  /// Goes from stop i to stop k straight, or via `bend` alone, if that is safe, arrives by `latest_s` and is
+  /// Goes from stop i to stop k straight, or via `via` alone, if that is safe, arrives by `latest_s` and is
   /// no later at any later stop. Returns whether it did.
-  bool reroute(Stops& stops, std::size_t i, std::size_t k, Node* bend, double latest_s);
+  bool reroute(Stops& stops, std::size_t i, std::size_t k, Node* via, double latest_s);
   /// Sets times and heading of the move from one stop to the next; false if it cannot arrive by `latest_s`.
   bool move(const Node& from, Node& to, double latest_s, ReservationTable::DiskId* likely_blocker = nullptr);
   Trajectory reconstruct(const Stops& stops) const;
@@ -170,7 +170,7 @@ class Sipp final : public SingleAgentPlanner {
   ArenaVector<CellNodes> cell_nodes_;
   ArenaVector<Node> nodes_;
   ReservationTable::DiskId shot_blocker_ = ReservationTable::kNoDisk;  ///< of the last goal shot
-  ReservationTable::DiskId way_blocker_ = ReservationTable::kNoDisk;   ///< of the last straight move
+  ReservationTable::DiskId edge_blocker_ = ReservationTable::kNoDisk;  ///< of the last straight move
   OpenList open_;
 };
 

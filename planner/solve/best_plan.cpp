@@ -22,7 +22,7 @@ constexpr std::uint64_t kEscalationRestarts = 0;
 /// Robots that may fail during ejection, for each robot of the instance. (Trials: one for
 /// every three robots at 192 in the paper's warehouse.)
 constexpr std::uint64_t kEjectionRestartsPerRobot = 4;
-/// Steps of the complete planner for a first plan. (Trials: some hundreds, however many robots.)
+/// Steps of LaCAM for a first plan. (Trials: some hundreds, however many robots.)
 constexpr std::uint64_t kFirstPlanSteps = 10'000;
 
 class BestPlan {
@@ -53,7 +53,7 @@ class BestPlan {
   double seconds() const { return seconds_since(begin_); }
   double time_left_s() const { return options_.time_limit_s - seconds(); }
 
-  /// Until improvement must have its turn, or the complete planner again; without either all
+  /// Until improvement must have its turn, or LaCAM again; without either all
   /// of the time is for the other steps.
   double time_before_improvement_s() const {
     double share = 1;
@@ -109,7 +109,7 @@ class BestPlan {
     return planned_.status == PlanStatus::kSolved;
   }
 
-  /// The complete planner, which has the counts of the limits for itself.
+  /// LaCAM, which has the counts of the limits for itself.
   void fall_back(std::uint64_t most_steps, double time_limit_s) {
     PlannerOptions step = options_;
     step.method = Method::kComplete;
@@ -130,8 +130,8 @@ class BestPlan {
     before = std::move(next);
   }
 
-  /// The plan of the last step, which keeps the promise of start-safe intervals; else that of
-  /// the complete planner. What the others took comes before it.
+  /// The plan of the last step, which keeps the guarantee of start-safe intervals; else that of
+  /// LaCAM. What the others took comes before it.
   void choose(bool is_found) {
     const bool takes_fallback = !is_found && has_fallback_;
     result_.plan = std::move(takes_fallback ? fallback_ : planned_);
@@ -150,9 +150,9 @@ class BestPlan {
   const Instance& instance_;
   PlannerOptions options_;  ///< without longer intervals, which are steps of their own
   std::vector<double> longer_ssi_s_;
-  bool has_fallback_;  ///< whether the complete planner knows such instances
+  bool has_fallback_;  ///< whether LaCAM knows such instances
   Clock::time_point begin_;
-  PlanResult fallback_;  ///< of the complete planner; failed if it was not asked
+  PlanResult fallback_;  ///< of LaCAM; failed if it was not asked
   PlanResult planned_;   ///< of the other steps
   SolveResult result_;
 };

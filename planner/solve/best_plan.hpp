@@ -1,4 +1,4 @@
-// The best plan that can be had in a given time: one at once from the complete planner, then
+// The best plan that can be had in a given time: one at once from LaCAM, then
 // methods from the paper's to coarser ones until one gives a better one, then improvement until the
 // time is over.
 #pragma once
@@ -8,13 +8,13 @@
 namespace sipplab {
 
 /// Steps:
-///  (1) the complete planner, if it can plan such instances: a plan in hand within
+///  (1) LaCAM, if it can plan such instances: a plan in hand within
 ///      milliseconds, though a poor one;
 ///  (2) the method of the options;
 ///  (3) the same with each longer start-safe interval;
 ///  (4) ejection, with the first interval and then with the longer ones;
 /// of (2) to (4) each until it gives a plan, which is then taken instead, or has had its
-/// restarts; if none does and (1) was cut short, the complete planner again. Then the plan is
+/// restarts; if none does and (1) was cut short, LaCAM again. Then the plan is
 /// improved until a limit is reached. If options.longer_ssi_s is empty, kLongerSsiS are tried.
 /// Steps are limited by counts, and by shares of options.time_limit_s, which is for everything: the result is
 /// repeatable if these are not used up and the iterations of options.improve end before the time limit.
@@ -27,7 +27,7 @@ inline constexpr double kLongerSsiS[] = {9, 15};
 /// Share of the time limit for the first plan.
 inline constexpr double kShareOfFirstPlan = 0.1;
 /// Share of the time limit in which a better plan must have been found. The rest is for
-/// improvement, which a plan of the complete planner needs more than any other.
+/// improvement, which a plan of LaCAM needs more than any other.
 inline constexpr double kShareBeforeImprovement = 0.3;
 
 }  // namespace sipplab

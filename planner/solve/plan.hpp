@@ -7,7 +7,7 @@
 
 namespace sipplab {
 
-/// Plans by what the options name: prioritized planning with its re-scheduling, or the complete planner as
+/// Plans by what the options name: prioritized planning with its re-scheduling, or LaCAM as
 /// their method or as their fallback. What the latter does is counted as one more try, its steps as
 /// expansions and its configurations as generations. Escalation: if the method fails with options.ssi_s,
 /// it is run again with each of options.longer_ssi_s in turn. Tries and work are those of all runs, and so

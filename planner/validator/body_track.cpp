@@ -35,8 +35,8 @@ BodyTrack make_track(const Trajectory& trajectory, double radius_cells) {
     const Vec2 to = centre(motion.to);
     if (motion.begin_s > covered_until_s)
       track.motions.push_back({covered_until_s, motion.begin_s, place, {}});
-    const Vec2 way = to - from;
-    track.motions.push_back({motion.begin_s, motion.end_s, from, {way.x / duration_s, way.y / duration_s}});
+    const Vec2 path = to - from;
+    track.motions.push_back({motion.begin_s, motion.end_s, from, {path.x / duration_s, path.y / duration_s}});
     covered_until_s = std::max(covered_until_s, motion.end_s);
     place = to;
   }

@@ -21,9 +21,9 @@ Vec2 facing(double heading_deg) {
 }
 
 Vec2 facing(Cell from, Cell to) {
-  const Vec2 way = centre(to) - centre(from);
-  const double length = norm(way);
-  return {way.x / length, way.y / length};
+  const Vec2 path = centre(to) - centre(from);
+  const double length = norm(path);
+  return {path.x / length, path.y / length};
 }
 
 /// Between two unit vectors, in degrees. W. Kahan's formula: accurate for all angles.

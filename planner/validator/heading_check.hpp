@@ -1,4 +1,4 @@
-// What one trajectory promises beyond its path: a robot moves the way it faces, has the
+// What one trajectory guarantees beyond its path: a robot moves the way it faces, has the
 // time to turn, and stands as long as the rules ask before it moves.
 #pragma once
 

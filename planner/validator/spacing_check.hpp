@@ -1,4 +1,4 @@
-// What inflated collision intervals promise: more distance while a robot moves, or more
+// What inflated collision intervals guarantee: more distance while a robot moves, or more
 // time between two bodies in one place.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The promise of start-safe intervals: no robot comes too close to the start of a
+// The guarantee of start-safe intervals: no robot comes too close to the start of a
 // lower-priority robot while that start is protected. [AY18], section 3.
 #pragma once
 

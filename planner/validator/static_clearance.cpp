@@ -16,13 +16,13 @@ struct Range {
 
 /// Cuts `part` of the line from + (to - from) * s to where |coordinate - middle| <= half.
 void cut_to_slab(double from, double to, double middle, double half, Range& part) {
-  const double way = to - from;
-  if (way == 0) {
+  const double path = to - from;
+  if (path == 0) {
     if (std::abs(from - middle) > half) part = {1, 0};
     return;
   }
-  const double one = (middle - half - from) / way;
-  const double other = (middle + half - from) / way;
+  const double one = (middle - half - from) / path;
+  const double other = (middle + half - from) / path;
   part.begin = std::max(part.begin, std::min(one, other));
   part.end = std::min(part.end, std::max(one, other));
 }
@@ -65,15 +65,15 @@ SegmentDistance distance_to_square(Vec2 from, Vec2 to, Vec2 square_centre) {
     if (distance_cells < least.distance_cells) least = {distance_cells, at};
   };
   take(distance_point_to_square(to, square_centre), 1);
-  const Vec2 way = to - from;
-  const double squared_length = squared_norm(way);
+  const Vec2 path = to - from;
+  const double squared_length = squared_norm(path);
   if (squared_length > 0) {
     constexpr std::array<Vec2, 4> kCorners{Vec2{-0.5, -0.5}, Vec2{0.5, -0.5}, Vec2{-0.5, 0.5},
                                            Vec2{0.5, 0.5}};
     for (const Vec2 offset : kCorners) {
       const Vec2 corner = square_centre + offset;
-      const double at = std::clamp(dot(corner - from, way) / squared_length, 0.0, 1.0);
-      take(norm(from + way * at - corner), at);
+      const double at = std::clamp(dot(corner - from, path) / squared_length, 0.0, 1.0);
+      take(norm(from + path * at - corner), at);
     }
   }
   return least;

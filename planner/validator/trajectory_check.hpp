@@ -1,4 +1,4 @@
-// What one trajectory promises on its own: times, endpoints, continuity, speed and
+// What one trajectory guarantees on its own: times, endpoints, continuity, speed and
 // a body on free cells.
 #pragma once
 

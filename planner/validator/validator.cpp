@@ -46,15 +46,15 @@ Violation collision(const Instance& instance, const BodyConflict& conflict) {
                       other_label, conflict.depth_cells, conflict.time_s)};
 }
 
-void check_promise(const Instance& instance, const std::vector<BodyTrack>& robots,
-                   const ValidationOptions& options, std::size_t max_violations,
-                   std::vector<Violation>& violations) {
+void check_guarantee(const Instance& instance, const std::vector<BodyTrack>& robots,
+                     const ValidationOptions& options, std::size_t max_violations,
+                     std::vector<Violation>& violations) {
   if (options.ssi_s <= 0 || options.order.empty() || violations.size() >= max_violations) return;
-  // Not <=: a start-safe interval that is no number promises nothing that can be checked.
+  // Not <=: a start-safe interval that is no number guarantees nothing that can be checked.
   if (!(options.ssi_s > 0) || !is_permutation(options.order, instance.agents.size())) {
     violations.push_back(
         {ViolationKind::kStartSafeInterval, 0, std::nullopt, 0, 0,
-         fmt::format("a start-safe interval of {} and an order of {} agents promise nothing: expected "
+         fmt::format("a start-safe interval of {} and an order of {} agents guarantee nothing: expected "
                      "a number and each of {} agents once",
                      options.ssi_s, options.order.size(), instance.agents.size())});
     return;
@@ -148,7 +148,7 @@ ValidationReport validate(const Instance& instance, const Solution& solution,
     if (report.violations.size() < max_violations) report.violations.push_back(collision(instance, conflict));
   }
   check_rules(instance, bodies, options, max_violations, report.violations);
-  check_promise(instance, robots, options, max_violations, report.violations);
+  check_guarantee(instance, robots, options, max_violations, report.violations);
   return report;
 }
 

@@ -1,15 +1,13 @@
-"""The table of planted bugs, and which test programs can reach which of them."""
+"""The table of planted bugs."""
 
-import re
 import sys
 from pathlib import Path
+
+from switches import SwitchError, switched
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 TABLE = HERE / "mutants.txt"
-
-# Programs that count as the second group: example tests, not properties.
-EXAMPLES = ("unit_tests", "db_tests")
 
 
 def read_mutants(path=TABLE):
@@ -35,6 +33,11 @@ def read_mutants(path=TABLE):
     return mutants
 
 
+def of_file(mutants, file):
+    """Those of a file with their numbers."""
+    return [(number, mutant) for number, mutant in enumerate(mutants) if mutant["file"] == file]
+
+
 def find_errors(mutants, root=ROOT):
     errors = []
     names = [mutant["name"] for mutant in mutants]
@@ -47,6 +50,11 @@ def find_errors(mutants, root=ROOT):
         count = file.read_text().count(mutant["before"]) if file.exists() else 0
         if count != 1:
             errors.append(f"{mutant['name']}: its text occurs {count} times in {mutant['file']}, expected once")
+    for file in sorted({mutant["file"] for mutant in mutants} if not errors else ()):
+        try:
+            switched(file, (root / file).read_text(), of_file(mutants, file))
+        except SwitchError as error:
+            errors.append(str(error))
     return errors
 
 
@@ -58,43 +66,3 @@ def wanted(mutants, only):
     if unknown:
         sys.exit(f"no mutant or room {', '.join(sorted(unknown))}; --list shows all")
     return [mutant for mutant in mutants if mutant["name"] in only or mutant["room"] in only]
-
-
-# ------------------------------------------------------------------ what reaches what
-
-
-def find_programs(root):
-    """Every test program and the files of the project that it may use."""
-    programs = {}
-    for source in sorted((root / "property_tests/properties").glob("*.cpp")):
-        programs[f"property_{source.stem}"] = [source]
-    programs["unit_tests"] = sorted((root / "property_tests/unit").glob("*.cpp"))
-    programs["db_tests"] = sorted((root / "db/tests").glob("*.cpp"))
-    return {
-        name: reachable_files(root, [str(source.relative_to(root)) for source in sources])
-        for name, sources in programs.items()
-    }
-
-
-def includes(file):
-    return re.findall(r'^#include "([^"]+)"', file.read_text(), re.MULTILINE)
-
-
-def reachable_files(root, sources):
-    """The headers that the sources include, and the sources next to a header that include
-    it, all the way down. Too many rather than too few."""
-    users = {}
-    for folder in ("planner", "db", "property_tests/support"):
-        for source in (root / folder).rglob("*.cpp"):
-            name = str(source.relative_to(root))
-            for header in includes(source):
-                if Path(header).parent == Path(name).parent:
-                    users.setdefault(header, []).append(name)
-    reached, ahead = set(), list(sources)
-    while ahead:
-        name = ahead.pop()
-        if name in reached or not (root / name).exists():
-            continue
-        reached.add(name)
-        ahead += includes(root / name) + users.get(name, [])
-    return reached

@@ -5,14 +5,20 @@ import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from mutants import EXAMPLES
+from builder import run_or_exit
+
+# What a test is, by the beginning of its name in ctest; others are left out. In this order a mutant meets them.
+KINDS = {"property": "law", "unit": "example", "db": "example", "bench": "example", "golden": "golden"}
+ORDER = ("law", "example", "golden")
+# The first sees that mutants fit the sources, the second that released migrations are as they were.
+NO_JUDGES = "-Mutants.*:Migrations.those_that_were_released_do_not_change"
 
 # Processor time that a program may take, as a multiple of its time without a mutant,
 # and at least so many seconds: shrinking a counterexample takes some of it.
@@ -20,67 +26,62 @@ TIME_FACTOR = 4
 LEAST_TIME_LIMIT_S = 20
 LONGEST_TIME_LIMIT_S = 900
 # A program that sleeps for so long waits for something that never comes. One that waits
-# for a processor on a busy machine does not sleep.
-LONGEST_SLEEP_S = 60
+# for a processor on a busy machine does not sleep, but a golden test sleeps while its programs run.
+LONGEST_SLEEP_S = {"law": 60, "example": 60, "golden": 600}
 COUNTEREXAMPLE_LINES = 80
+# Set when the matrix is to end: programs that run are killed.
+ending = threading.Event()
 
-KILLED, TIME, SURVIVED, UNREACHED, NOT_RUN = "killed", "time", "survived", "unreached", "not run"
+KILLED, TIME, SURVIVED, NOT_RUN = "killed", "time", "survived", "not run"
 
 
-class Runner:
-    def __init__(self, builder, parameters, jobs):
-        self.builder, self.parameters, self.jobs = builder, parameters, jobs
-        self.left_out = {}  # example tests that fail without any mutant, by program
-        self.limits = {}  # processor time of each program
+class Program:
+    def __init__(self, name, kind, command):
+        self.name, self.kind, self.command = name, kind, command
+        self.seconds, self.reached = LONGEST_TIME_LIMIT_S / TIME_FACTOR, set()
 
-    def leave_out_failing_examples(self, programs):
-        for name in sorted(set(programs) & set(EXAMPLES)):
-            done = subprocess.run([str(self.builder.program(name)), "--gtest_brief=1", "--gtest_filter=-Mutants.*"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, errors="replace")
-            failing = re.findall(r"^\[  FAILED  \] ([^ ,]+)", done.stdout, re.MULTILINE)
-            self.left_out[name] = sorted(set(failing))
+    def learn(self, run):
+        """From a run without a mutant: its time and the numbers of the mutants that it reaches."""
+        self.seconds, self.reached = run.seconds, run.reached
 
-    def limit_times(self, baseline):
-        self.limits = {name: max(LEAST_TIME_LIMIT_S, TIME_FACTOR * cell["seconds"])
-                       for name, cell in baseline.items()}
 
-    def run(self, programs, log=None):
-        """A cell for each program; what their properties log is appended to a file."""
-
-        def one(program):
-            run = Run(self.builder.program(program), program, self.parameters,
-                      self.limits.get(program, LONGEST_TIME_LIMIT_S), self.left_out.get(program, []))
-            return program, run
-
-        with ThreadPoolExecutor(self.jobs) as pool:
-            runs = dict(pool.map(one, programs))
-        if log:
-            with open(log, "a") as file:
-                file.write("".join(run.logged for run in runs.values()))
-        return {program: run.cell() for program, run in runs.items()}
+def find_programs(build):
+    """The tests of ctest; the examples of one program are one."""
+    programs = {}
+    for test in json.loads(run_or_exit(["ctest", "--test-dir", str(build), "--show-only=json-v1"]))["tests"]:
+        kind = KINDS.get(test["name"].split(".")[0])
+        if kind == "example":
+            name = Path(test["command"][0]).name
+            programs[name] = Program(name, kind, [test["command"][0], "--gtest_fail_fast", f"--gtest_filter={NO_JUDGES}"])
+        elif kind and "command" in test:
+            programs[test["name"]] = Program(test["name"], kind, test["command"])
+    return list(programs.values())
 
 
 class Run:
-    def __init__(self, path, program, parameters, time_limit_s, left_out):
+    """One run of a program, with a mutant or without."""
+
+    def __init__(self, program, mutant, parameters, mutants):
         self.program = program
         self.title = None
         self.lines = []  # of the first failure
         self.stopped = False  # after its first failure
         scratch = Path(tempfile.mkdtemp(prefix="kill-"))
-        log = scratch / "properties.jsonl"
-        command = [str(path)]
-        if program in EXAMPLES:
-            # Mutants.* sees that mutants still apply, and would see that one is planted.
-            tests = ":".join(["Mutants.*", *left_out])
-            command += ["--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter=-{tests}"]
-        self.process = subprocess.Popen(command, cwd=scratch, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                        text=True, errors="replace", preexec_fn=without_core_file,
-                                        env=dict(os.environ, RC_PARAMS=parameters, SIPPLAB_PROPERTY_LOG=str(log)))
+        scratch.chmod(0o755)
+        log, reached = scratch / "properties.jsonl", scratch / "reached"
+        reached.write_bytes(bytes(mutants))
+        self.process = subprocess.Popen(
+            program.command, cwd=scratch, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            text=True, errors="replace", start_new_session=True, preexec_fn=without_core_file,
+            env=dict(os.environ, RC_PARAMS=parameters, SIPPLAB_PROPERTY_LOG=str(log) if program.kind == "law" else "",
+                     SIPPLAB_MUTANT=mutant, SIPPLAB_MUTANTS_REACHED=str(reached), TMPDIR=str(scratch)))
         reader = threading.Thread(target=self._read)
         reader.start()
-        out_of_time = self._watch(reader, time_limit_s)
+        out_of_time = self._watch(reader, max(LEAST_TIME_LIMIT_S, TIME_FACTOR * program.seconds))
         code = self.process.wait()
+        self._kill()  # what it left behind
         self.logged = self._ended_runs(log)
+        self.reached = {number for number, byte in enumerate(reached.read_bytes()) if byte}
         shutil.rmtree(scratch, ignore_errors=True)
         if self.title is not None and self.lines:
             self.outcome = KILLED
@@ -88,13 +89,13 @@ class Run:
             self.outcome = TIME
         elif code != 0:
             self.outcome = KILLED
-            self.title = f"{self.title or program} (ended with {code})"
+            self.title = f"{self.title or program.name} (ended with {code})"
         else:
             self.outcome = SURVIVED
 
     def cell(self):
-        return {"outcome": self.outcome, "title": self.title, "seconds": round(self.seconds, 2),
-                "lines": self.lines, "size": size_of_counterexample(self.lines)}
+        return {"kind": self.program.kind, "outcome": self.outcome, "title": self.title,
+                "seconds": round(self.seconds, 2), "lines": self.lines, "size": size_of_counterexample(self.lines)}
 
     def _watch(self, reader, time_limit_s):
         """Waits for the end; true if the program had to be killed for its time."""
@@ -105,8 +106,8 @@ class Run:
             if seconds > self.seconds or state not in "SD":
                 asleep_since = time.monotonic()
             self.seconds = max(self.seconds, seconds)
-            if self.seconds > time_limit_s or time.monotonic() - asleep_since > LONGEST_SLEEP_S:
-                self.process.kill()
+            if ending.is_set() or self.seconds > time_limit_s or time.monotonic() - asleep_since > LONGEST_SLEEP_S[self.program.kind]:
+                self._kill()
                 reader.join()
                 return True
         return False
@@ -120,18 +121,28 @@ class Run:
                 return self._stop()
             if self.lines:
                 self.lines.append(line)
-            elif line.startswith("- "):
-                self.title = title = line[2:]
+            elif line.startswith(("- ", "[ RUN      ] ")):
+                self.title = title = line.removeprefix("- ").removeprefix("[ RUN      ] ")
             elif line.startswith("Falsifiable after"):
-                self.title, self.lines = title or self.program, [line]
-            elif "[  FAILED  ]" in line and self.program in EXAMPLES:
-                self.title, self.lines = line.split("]", 1)[1].split(" (")[0].split(", where")[0].strip(), [line]
+                self.title, self.lines = title or self.program.name, [line]
+            elif "[  FAILED  ]" in line and self.program.kind == "example":
+                self.lines = [line]
+                return self._stop()
+            elif line.startswith("BROKEN: "):
+                self.title, self.lines = line, [line]
                 return self._stop()
         return None
 
     def _stop(self):
         self.stopped = True
-        self.process.kill()
+        self._kill()
+
+    def _kill(self):
+        """The program and all that it started."""
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
 
     def _ended_runs(self, log):
         """What was logged. A property that had only begun when its program was stopped for
@@ -147,12 +158,12 @@ def without_core_file():
 
 
 def processor_use(pid):
-    """State of a process (R: runs or wants to) and its seconds of processor time."""
+    """State of a process (R: runs or wants to) and seconds of processor time, its own and of children that ended."""
     try:
         fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     except OSError:
         return "X", 0.0
-    return fields[0], (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return fields[0], sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
 
 
 def size_of_counterexample(lines):

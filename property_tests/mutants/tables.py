@@ -1,120 +1,92 @@
-"""What killed what, as tables: text, Markdown and CSV, and the counterexamples."""
+"""What killed what, in Markdown, and the counterexamples."""
 
-import csv
 import json
 
-from mutants import EXAMPLES
-from runner import KILLED, NOT_RUN, SURVIVED, TIME, UNREACHED
+from runner import KILLED, NOT_RUN, ORDER, TIME
 
-SYMBOL = {KILLED: "K", TIME: "T", SURVIVED: ".", UNREACHED: " ", NOT_RUN: "-"}
-LEGEND = "K killed, T killed by its time limit, . survived, - not run, blank: cannot reach the code"
+VERDICTS = (*ORDER, "survived", "not reached", "not run")
 
 
 class Results:
-    """Cells by mutant and program, kept in a file to which later runs add."""
+    """Cells by mutant and program, one for each program that reaches it, kept in a file to which later runs add."""
 
-    def __init__(self, out):
-        self.out = out
+    def __init__(self, out, mutants):
+        self.out, self.mutants = out, mutants
         self.file = out / "results.json"
         self.cells = json.loads(self.file.read_text()) if self.file.exists() else {}
+        out.mkdir(parents=True, exist_ok=True)
 
     def add(self, mutant, cells):
-        self.cells.setdefault(mutant["name"], {}).update(cells)
+        known = self.cells.setdefault(mutant["name"], {})
+        # What was not run now may have been run before.
+        known.update({program: cell for program, cell in cells.items() if cell["outcome"] != NOT_RUN or program not in known})
         self.file.write_text(json.dumps(self.cells, indent=1))
 
-    def rows(self, mutants):
-        return [(mutant, self.cells[mutant["name"]]) for mutant in mutants if mutant["name"] in self.cells]
+    def mutants_of(self, room):
+        return [mutant["name"] for mutant in self.mutants if mutant["room"] == room and mutant["name"] in self.cells]
+
+    def write(self):
+        """The tables; what they say in a line."""
+        rows = [(mutant, self.cells[mutant["name"]]) for mutant in self.mutants if mutant["name"] in self.cells]
+        (self.out / "matrix.md").write_text(f"{rooms(rows)}\n{page(rows)}")
+        (self.out / "counterexamples.txt").write_text(counterexamples(rows))
+        return summary(rows)
+
+
+def kills(cells, kind):
+    """The programs of a kind that noticed, those that ran out of time last."""
+    noticed = [(cell["outcome"] == TIME, cell["seconds"], program) for program, cell in cells.items()
+               if cell["kind"] == kind and cell["outcome"] in (KILLED, TIME)]
+    return [program for _, _, program in sorted(noticed)]
 
 
 def verdict(cells):
+    """The first kind of test that killed: a mutant with the verdict golden is known from golden texts alone."""
     if not cells:
-        return "not run"
-    properties = [cell for program, cell in cells.items() if program not in EXAMPLES]
-    if any(cell["outcome"] in (KILLED, TIME) for cell in properties):
-        return "killed"
-    if any(cell["outcome"] in (KILLED, TIME) for cell in cells.values()):
-        return "by examples only"
-    return "SURVIVED"
+        return "not reached"
+    by = next((kind for kind in ORDER if kills(cells, kind)), None)
+    return by or ("not run" if any(cell["outcome"] == NOT_RUN for cell in cells.values()) else "survived")
 
 
-def first_kill(cells):
-    killed = [(program in EXAMPLES, cell["outcome"] == TIME, cell["seconds"], program, cell)
-              for program, cell in cells.items() if cell["outcome"] in (KILLED, TIME)]
-    if not killed:
-        return "", ""
-    _, _, _, program, cell = min(killed, key=lambda kill: kill[:4])
-    title = cell["title"] if cell["outcome"] == KILLED else "out of time"
-    size = cell.get("size")
-    return (f"{program.removeprefix('property_')}: {title}",
-            f"{size['robots']} robots, {size['cells']} cells" if size else "")
+def first_kill(cells, kind):
+    """What noticed first; a point if nothing did, a dash if not all was run, and nothing if nothing could."""
+    programs = kills(cells, kind)
+    if programs:
+        title = "out of time" if cells[programs[0]]["outcome"] == TIME else cells[programs[0]]["title"]
+        return f"{programs[0].removeprefix('property.')}: {title}"
+    outcomes = [cell["outcome"] for cell in cells.values() if cell["kind"] == kind]
+    return "-" if NOT_RUN in outcomes else "." if outcomes else ""
+
+
+def smallest_case(cells):
+    sizes = [(cell["size"]["robots"], cell["size"]["cells"]) for cell in cells.values() if cell.get("size")]
+    return "{} robots, {} cells".format(*min(sizes)) if sizes else ""
 
 
 def summary(rows):
     verdicts = [verdict(cells) for _, cells in rows]
-    return (f"{len(rows)} mutants: {verdicts.count('killed')} killed by a property, "
-            f"{verdicts.count('by examples only')} by example tests only, {verdicts.count('SURVIVED')} survived.")
+    return f"{len(rows)} mutants: " + ", ".join(f"{verdicts.count(kind)} {kind}" for kind in VERDICTS)
 
 
-class Matrix:
-    """One row for each mutant that was run, one column for each program."""
+def rooms(rows):
+    """How many of each room fell to a law, to an example only, to golden texts only, and to nothing."""
+    lines = [f"| room | mutants | {' | '.join(VERDICTS)} |", "|---" + "|---:" * (len(VERDICTS) + 1) + "|"]
+    names = list(dict.fromkeys(mutant["room"] for mutant, _ in rows))
+    for name in [*names, "all"]:
+        found = [verdict(cells) for mutant, cells in rows if name in (mutant["room"], "all")]
+        lines.append(f"| {name} | {len(found)} | " + " | ".join(str(found.count(kind)) for kind in VERDICTS) + " |")
+    return "\n".join([*lines, ""])
 
-    def __init__(self, rows, programs):
-        self.rows, self.programs = rows, programs
-        self.columns = sorted(programs, key=lambda program: (program in EXAMPLES, program))
-        self.heads = [column.removeprefix("property_") for column in self.columns]
 
-    def write(self, out):
-        (out / "matrix.txt").write_text(self.text())
-        (out / "matrix.md").write_text(self.page())
-        (out / "kills.md").write_text(self.kills())
-        (out / "counterexamples.txt").write_text(self.counterexamples())
-        with open(out / "matrix.csv", "w", newline="") as table:
-            self.write_csv(csv.writer(table))
+def page(rows):
+    lines = [f"| room | mutant | {' | '.join(ORDER)} | smallest case |", "|---" * (len(ORDER) + 3) + "|"]
+    for mutant, cells in rows:
+        found = " | ".join(first_kill(cells, kind).replace("|", "\\|") for kind in ORDER)
+        lines.append(f"| {mutant['room']} | {mutant['name']} | {found} | {smallest_case(cells)} |")
+    return "\n".join([*lines, ""])
 
-    def outcome(self, mutant, cells, column):
-        missing = NOT_RUN if mutant["file"] in self.programs[column] else UNREACHED
-        return cells.get(column, {}).get("outcome", missing)
 
-    def marks(self, mutant, cells, separator):
-        return separator.join(SYMBOL[self.outcome(mutant, cells, column)] for column in self.columns)
-
-    def text(self):
-        lines = [LEGEND, ""]
-        lines += ["  " + "| " * position + head for position, head in enumerate(self.heads)]
-        lines += [f"  {self.marks(mutant, cells, ' ')}  {verdict(cells):16}  {mutant['room']}: {mutant['name']}"
-                  for mutant, cells in self.rows]
-        return "\n".join([*lines, "", summary(self.rows), ""])
-
-    def page(self):
-        heads = " | ".join(head.replace("_", " ") for head in self.heads)
-        lines = [f"| room | mutant | {heads} | first kill | smallest case |", "|---" * (len(self.heads) + 4) + "|"]
-        for mutant, cells in self.rows:
-            kill, size = first_kill(cells)
-            kill = kill.replace("|", "\\|") or "**survived**"
-            lines.append(f"| {mutant['room']} | {mutant['name']} | {self.marks(mutant, cells, ' | ')} "
-                         f"| {kill} | {size} |")
-        return "\n".join([*lines, "", summary(self.rows), ""])
-
-    def kills(self):
-        """The same without marks: what noticed first."""
-        lines = ["| room | mutant | killed by | smallest case |", "|---|---|---|---|"]
-        for mutant, cells in self.rows:
-            kill, size = first_kill(cells)
-            kill = kill.replace("|", "\\|") or "**survived**"
-            lines.append(f"| {mutant['room']} | {mutant['name']} | {kill} | {size} |")
-        return "\n".join([*lines, "", summary(self.rows), ""])
-
-    def write_csv(self, writer):
-        writer.writerow(["mutant", "room", "file", "program", "outcome", "property", "cpu_seconds", "robots", "cells"])
-        for mutant, cells in self.rows:
-            for column in self.columns:
-                cell = cells.get(column, {"outcome": self.outcome(mutant, cells, column)})
-                size = cell.get("size") or {}
-                writer.writerow([mutant["name"], mutant["room"], mutant["file"], column, cell["outcome"],
-                                 cell.get("title") if cell["outcome"] == KILLED else "", cell.get("seconds", ""),
-                                 size.get("robots", ""), size.get("cells", "")])
-
-    def counterexamples(self):
-        return "".join(f"==== {mutant['name']} / {column}: {cell['title']}\n" + "\n".join(cell["lines"]) + "\n\n"
-                       for mutant, cells in self.rows for column, cell in cells.items()
-                       if cell["outcome"] == KILLED and column not in EXAMPLES)
+def counterexamples(rows):
+    return "".join(f"==== {mutant['name']} / {program}: {cell['title']}\n" + "\n".join(cell["lines"]) + "\n\n"
+                   for mutant, cells in rows for program, cell in cells.items()
+                   if cell["outcome"] == KILLED and cell["kind"] == "law")

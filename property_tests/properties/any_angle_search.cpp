@@ -47,10 +47,10 @@ PlanCase any_world() {
 }
 
 Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, SearchStatistics& work,
-                                         const SearchLimits& limits = {}, bool detours = true) {
+                                         const SearchLimits& limits = {}, bool static_distances = true) {
   SippOptions options;
   options.any_angle = any_angle;
-  options.detours = detours;
+  options.static_distances = static_distances;
   options.connectedness = world.options.connectedness;
   ReservationTable reservations(world.instance.map, world.instance.agents[0].radius_cells);
   for (const DynamicObstacle& obstacle : world.instance.obstacles) {
@@ -65,7 +65,7 @@ Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, 
 int main() {
   using namespace sipplab;
   bool passed =
-      property("work is counted: a node for each motion at least, one for a straight way alone", [] {
+      property("work is counted: a node for each motion at least, one for a straight path alone", [] {
         for (int i = 0; i < kWorldsPerCase; ++i) {
           PlanCase world = any_world();
           note_case(world);
@@ -74,11 +74,11 @@ int main() {
             const auto found = search(world, any_angle, work);
             if (!found) continue;
             const auto& motions = found->motions;
-            const auto ways = static_cast<std::uint64_t>(std::count_if(
+            const auto paths = static_cast<std::uint64_t>(std::count_if(
                 motions.begin(), motions.end(), [](const TimedMotion& motion) { return !motion.is_wait(); }));
-            RC_ASSERT(work.generations >= ways);
-            RC_ASSERT(work.expansions >= std::min<std::uint64_t>(ways, 1));
-            if (!any_angle) RC_ASSERT(work.expansions >= ways);
+            RC_ASSERT(work.generations >= paths);
+            RC_ASSERT(work.expansions >= std::min<std::uint64_t>(paths, 1));
+            if (!any_angle) RC_ASSERT(work.expansions >= paths);
           }
           const Agent& agent = world.instance.agents[0];
           world.instance.obstacles.clear();
@@ -99,8 +99,8 @@ int main() {
       SearchStatistics work;
       const auto stepwise = search(world, false, work);
       if (!stepwise) continue;
-      for (const bool detours : {true, false}) {
-        const auto any_angle = search(world, true, work, {}, detours);
+      for (const bool static_distances : {true, false}) {
+        const auto any_angle = search(world, true, work, {}, static_distances);
         RC_ASSERT(static_cast<bool>(any_angle));
         RC_ASSERT(any_angle->arrival_s() <= stepwise->arrival_s() + kArrivalS);
         earlier = earlier || any_angle->arrival_s() < stepwise->arrival_s() - kArrivalS;

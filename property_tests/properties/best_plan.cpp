@@ -85,7 +85,7 @@ int main() {
         RC_ASSERT(result.status == PlanStatus::kFailed);
       });
 
-  passed &= property("the best plan: valid, with the promise for as long as it says", [] {
+  passed &= property("the best plan: valid, with the guarantee for as long as it says", [] {
     const PlanCase plan_case = any_noted_case();
     const SolveResult best = solve(plan_case.instance, best_options(plan_case));
     RC_CLASSIFY(best.steps.size() > 1, "several steps");
@@ -100,7 +100,7 @@ int main() {
     RC_ASSERT(!is_better(Objective{}, before, best.improvement->log.curve.back().cost));
   });
 
-  passed &= property("the best plan: solves what the complete planner solves", [] {
+  passed &= property("the best plan: solves what LaCAM solves", [] {
     PlanCase plan_case = any_noted_case();
     RC_PRE(!find_beyond_complete(plan_case.instance, plan_case.options.rules));
     const SolveResult best = solve(plan_case.instance, best_options(plan_case));

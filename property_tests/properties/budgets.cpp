@@ -42,7 +42,7 @@ constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
 /// and has said how long it took.
 constexpr double kLooksOfAPhaseS = 8;
 
-/// With `options.best`: the complete planner twice, the method and ejection with each start-safe interval,
+/// With `options.best`: LaCAM twice, the method and ejection with each start-safe interval,
 /// and improvement.
 double last_looks_s(const PlannerOptions& options) {
   const double intervals = options.longer_ssi_s.empty() ? static_cast<double>(std::size(kLongerSsiS))
@@ -282,7 +282,7 @@ int main() {
     plan_case.options.improve = ImproveBudget{};
     plan_case.options.improve->iterations = 1;
     const SolveResult best = solve(plan_case.instance, plan_case.options);
-    // The complete planner has a budget of its own, twice.
+    // LaCAM has a budget of its own, twice.
     std::uint64_t allowed = plan_case.options.max_expansions;
     for (const BestStep& step : best.steps) {
       if (step.kind == BestStep::Kind::kFallback) allowed += plan_case.options.max_expansions;

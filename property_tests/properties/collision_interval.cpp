@@ -99,20 +99,20 @@ void check_quick_test(const std::vector<Encounter>& encounters) {
 
 /// Samples along the path, each of which speaks for a stretch around it. True when some of
 /// the path intrudes.
-bool agrees_with_samples(const Displacement& way, Vec2 place, Vec2 pardoned, double reach) {
+bool agrees_with_samples(const Displacement& path, Vec2 place, Vec2 pardoned, double reach) {
   constexpr int kSamples = 500;
-  const double stretch = way.length / kSamples / 2 + kPermittedDepthCells;
+  const double stretch = path.length / kSamples / 2 + kPermittedDepthCells;
   bool must = false;
   bool may = false;
   for (int i = 0; i <= kSamples; ++i) {
-    const Vec2 sample = way.from + (way.to - way.from) * (static_cast<double>(i) / kSamples);
+    const Vec2 sample = path.from + (path.to - path.from) * (static_cast<double>(i) / kSamples);
     const double to_place = norm(sample - place);
     const double to_pardoned = norm(sample - pardoned);
     must = must ||
            (to_place < reach - 2 * kPermittedDepthCells && to_pardoned > reach + 2 * kPermittedDepthCells);
     may = may || (to_place < reach + stretch && to_pardoned > reach - stretch);
   }
-  const bool answer = intrudes(way, place, pardoned, reach);
+  const bool answer = intrudes(path, place, pardoned, reach);
   if (must) RC_ASSERT(answer);
   if (!may) RC_ASSERT(!answer);
   return answer;
@@ -135,17 +135,17 @@ int main() {
       "closeness (1)(2)(3): misses no unsafe departure, leaves out those far apart, is sure of overlaps",
       [] { check_quick_test(*any_encounters()); });
 
-  passed &= property("intrudes: agrees with samples of the way", [] {
-    constexpr int kWays = 10;
+  passed &= property("intrudes: agrees with samples of the path", [] {
+    constexpr int kPaths = 10;
     constexpr std::int32_t kSide = 5;
     int intruding = 0;
-    for (int i = 0; i < kWays; ++i) {
-      const Displacement way(centre(*any_cell(kSide, kSide)), centre(*any_cell(kSide, kSide)));
+    for (int i = 0; i < kPaths; ++i) {
+      const Displacement path(centre(*any_cell(kSide, kSide)), centre(*any_cell(kSide, kSide)));
       const Vec2 place = centre(*any_cell(kSide, kSide));
       const Vec2 pardoned = centre(*any_cell(kSide, kSide));
-      intruding += agrees_with_samples(way, place, pardoned, *any_radius() + 0.5) ? 1 : 0;
+      intruding += agrees_with_samples(path, place, pardoned, *any_radius() + 0.5) ? 1 : 0;
     }
-    RC_CLASSIFY(intruding > 0 && intruding < kWays, "some intrude, some do not");
+    RC_CLASSIFY(intruding > 0 && intruding < kPaths, "some intrude, some do not");
   });
 
   return passed ? 0 : 1;

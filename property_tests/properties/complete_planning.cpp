@@ -1,4 +1,4 @@
-// The complete planner: what it solves, against an exhaustive search; that its plans are
+// LaCAM: what it solves, against an exhaustive search; that its plans are
 // valid; for how long its order keeps the starts safe.
 #include <rapidcheck.h>
 
@@ -125,10 +125,10 @@ std::vector<std::vector<AgentIndex>> visitors_of(const GridMap& map, const Solut
     const Trajectory& trajectory = solution.trajectories[robot];
     comings[map.index(trajectory.start)].emplace_back(-1, robot);
     for (const TimedMotion& motion : trajectory.motions) {
-      const Cell way{motion.to.x - motion.from.x, motion.to.y - motion.from.y};
-      const std::int32_t cells = std::abs(way.x) + std::abs(way.y);
+      const Cell path{motion.to.x - motion.from.x, motion.to.y - motion.from.y};
+      const std::int32_t cells = std::abs(path.x) + std::abs(path.y);
       for (std::int32_t i = 1; i <= cells; ++i) {
-        const Cell cell{motion.from.x + way.x / cells * i, motion.from.y + way.y / cells * i};
+        const Cell cell{motion.from.x + path.x / cells * i, motion.from.y + path.y / cells * i};
         comings[map.index(cell)].emplace_back(motion.begin_s + (motion.end_s - motion.begin_s) * i / cells,
                                               robot);
       }
@@ -166,7 +166,7 @@ int main() {
     RC_ASSERT(result.status == (solvable ? LacamStatus::kSolved : LacamStatus::kUnsolvable));
   });
 
-  passed &= property("plan_complete (2): every plan of a crowd is valid, its promise kept", [] {
+  passed &= property("plan_complete (2): every plan of a crowd is valid, its guarantee kept", [] {
     const PlanCase plan_case = any_crowd();
     const CompleteResult result = plan_complete(plan_case.instance, options_of(plan_case));
     RC_CLASSIFY(result.status == LacamStatus::kSolved, "solved");
@@ -174,7 +174,7 @@ int main() {
     RC_ASSERT(is_valid(plan_case.instance, result.solution, result.ssi_kept_s, result.order));
   });
 
-  passed &= property("plan_complete (2): every plan is valid, its promise kept", [] {
+  passed &= property("plan_complete (2): every plan is valid, its guarantee kept", [] {
     const PlanCase plan_case = any_case_within_model();
     RC_ASSERT(!find_beyond_complete(plan_case.instance));
     const CompleteResult result = plan_complete(plan_case.instance, options_of(plan_case));

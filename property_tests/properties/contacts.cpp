@@ -37,7 +37,7 @@ constexpr std::int32_t kFarthest = 4;
 /// Two bodies: where one is, seen from the other, how the distance between them is shared, how deep they are
 /// in each other.
 struct Meeting {
-  Cell way;
+  Cell path;
   Cell half;  ///< of the move of one of them
   double share = 0.5;
   double depth_cells = 0;
@@ -47,15 +47,15 @@ struct Meeting {
 };
 
 std::ostream& operator<<(std::ostream& out, const Meeting& meeting) {
-  return out << meeting.way << " away, half a move " << meeting.half << " at speed " << meeting.speed
+  return out << meeting.path << " away, half a move " << meeting.half << " at speed " << meeting.speed
              << ", share " << meeting.share << ", deep " << meeting.depth_cells;
 }
 
 Meeting make_meeting() {
   Meeting meeting;
-  while (meeting.way == Cell{0, 0}) {
+  while (meeting.path == Cell{0, 0}) {
     const Cell cell = *any_cell(2 * kFarthest + 1, 2 * kFarthest + 1);
-    meeting.way = {cell.x - kFarthest, cell.y - kFarthest};
+    meeting.path = {cell.x - kFarthest, cell.y - kFarthest};
   }
   meeting.half = *any_of<Cell>({{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 1}, {1, 2}, {2, -1}, {3, 2}});
   meeting.share = *any_of({0.5, 1.0 / 3, 0.7, 0.25, 1 / std::sqrt(5.0)});
@@ -64,7 +64,7 @@ Meeting make_meeting() {
   return meeting;
 }
 
-double length(Cell way) { return std::sqrt(static_cast<double>(way.x * way.x + way.y * way.y)); }
+double length(Cell path) { return std::sqrt(static_cast<double>(path.x * path.x + path.y * path.y)); }
 
 /// Two bodies that touch if they are `apart_cells` apart, one of them deeper by `depth_cells`.
 struct Radii {
@@ -89,13 +89,13 @@ Agent body(const char* id, Cell start, Cell goal, double radius_cells) {
 /// All say the same of two bodies that rest side by side.
 void agree_on_bodies_at_rest(const Meeting& meeting) {
   const bool touch = meeting.touch();
-  const Cell way = meeting.way;
+  const Cell path = meeting.path;
   const Cell here{kSide / 2, kSide / 2};
-  const Cell there{here.x + way.x, here.y + way.y};
-  const Radii radii = radii_that_touch(length(way), meeting);
+  const Cell there{here.x + path.x, here.y + path.y};
+  const Radii radii = radii_that_touch(length(path), meeting);
   const double reach = radii.one + radii.other;
   RC_LOG() << here << " radius " << radii.one << ", " << there << " radius " << radii.other << std::endl;
-  RC_CLASSIFY(touch && length(way) != std::floor(length(way)), "in contact at an irrational distance");
+  RC_CLASSIFY(touch && length(path) != std::floor(length(path)), "in contact at an irrational distance");
 
   RC_ASSERT(disks_overlap(here, radii.one, there, radii.other) == !touch);
   DiskLookup lookup;
@@ -131,7 +131,7 @@ void agree_on_bodies_at_rest(const Meeting& meeting) {
 void pass_in_contact(const Meeting& meeting) {
   const bool touch = meeting.touch();
   const Cell half = meeting.half;
-  const Cell aside = meeting.way;
+  const Cell aside = meeting.path;
   const Cell middle{kSide / 2, kSide / 2};
   const Cell from{middle.x - half.x, middle.y - half.y};
   const Cell to{middle.x + half.x, middle.y + half.y};
@@ -152,7 +152,7 @@ void pass_in_contact(const Meeting& meeting) {
   const MovingDisk other = MovingDisk::resting(centre(there), 0, kForever, radii.other);
   RC_ASSERT(unsafe_departures(move, other, reach).empty() == touch);
   RC_ASSERT((closeness(move, 1, other, reach) == Closeness::kOverlapping) <= !touch);
-  RC_ASSERT(reaches(move.way, centre(there), reach) == !touch);
+  RC_ASSERT(reaches(move.path, centre(there), reach) == !touch);
 
   Instance instance;
   instance.map = GridMap(kSide, kSide);
@@ -178,17 +178,17 @@ void pass_in_contact(const Meeting& meeting) {
 void stand_at_a_corner(const Meeting& meeting) {
   const bool touch = meeting.touch();
   const Cell here{kSide / 2, kSide / 2};
-  const Cell way = meeting.way;
+  const Cell path = meeting.path;
   const double radius_cells =
-      std::hypot(std::max(0.0, std::abs(way.x) - 0.5), std::max(0.0, std::abs(way.y) - 0.5)) +
+      std::hypot(std::max(0.0, std::abs(path.x) - 0.5), std::max(0.0, std::abs(path.y) - 0.5)) +
       meeting.depth_cells;
   RC_PRE(radius_cells <= kRoom);
   Instance instance;
   instance.map = GridMap(kSide, kSide);
-  instance.map.set_blocked({here.x + way.x, here.y + way.y}, true);
+  instance.map.set_blocked({here.x + path.x, here.y + path.y}, true);
   instance.agents = {body("one", here, here, radius_cells)};
-  RC_LOG() << "radius " << radius_cells << ", blocked " << way << " away" << std::endl;
-  RC_CLASSIFY(touch && way.x != 0 && way.y != 0, "at a corner");
+  RC_LOG() << "radius " << radius_cells << ", blocked " << path << " away" << std::endl;
+  RC_CLASSIFY(touch && path.x != 0 && path.y != 0, "at a corner");
   RC_ASSERT(!find_error(instance) == touch);
   RC_ASSERT(LineOfSight(instance.map, radius_cells).is_legal(here) == touch);
   RC_ASSERT((standing_components(instance.map, radius_cells)[instance.map.index(here)] != 0) == touch);

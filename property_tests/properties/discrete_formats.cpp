@@ -227,16 +227,16 @@ std::vector<Cell> without_repeats(const std::vector<Cell>& cells) {
 std::vector<Cell> cells_of(const Trajectory& trajectory) {
   std::vector<Cell> cells = {trajectory.start};
   for (const TimedMotion& motion : trajectory.motions) {
-    const Cell way{motion.to.x - motion.from.x, motion.to.y - motion.from.y};
-    const std::int32_t length = std::abs(way.x) + std::abs(way.y);
+    const Cell path{motion.to.x - motion.from.x, motion.to.y - motion.from.y};
+    const std::int32_t length = std::abs(path.x) + std::abs(path.y);
     for (std::int32_t i = 1; i <= length; ++i) {
-      cells.push_back({motion.from.x + way.x / length * i, motion.from.y + way.y / length * i});
+      cells.push_back({motion.from.x + path.x / length * i, motion.from.y + path.y / length * i});
     }
   }
   return cells;
 }
 
-/// A plan of the complete planner, and its steps.
+/// A plan of LaCAM, and its steps.
 struct Stepped {
   PlanCase plan_case;
   Solution solution;

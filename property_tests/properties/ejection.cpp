@@ -1,4 +1,4 @@
-// Re-scheduling by ejection: its plans are right, its final order keeps the promise of
+// Re-scheduling by ejection: its plans are right, its final order keeps the guarantee of
 // start-safe intervals, and its trace tells what happened.
 #include "planner/prioritized/ejection.hpp"
 
@@ -121,10 +121,10 @@ std::size_t ejects_by_the_rules(const PlanCase& plan_case, const PlanResult& res
       RC_ASSERT(pass.ejected.empty());
       break;
     }
-    Trajectory way = std::move(*forced);
+    Trajectory path = std::move(*forced);
     // Those ejected most often are the first to be put back, of these the first of the input.
     std::vector<std::pair<int, AgentIndex>> candidates;
-    for (const AgentIndex other : plan.conflicts(agent, way)) candidates.emplace_back(-times[other], other);
+    for (const AgentIndex other : plan.conflicts(agent, path)) candidates.emplace_back(-times[other], other);
     std::sort(candidates.begin(), candidates.end());
     std::vector<PartialPlan::Taken> taken;
     for (const auto& [rank, other] : candidates) taken.push_back(plan.take_out(other));
@@ -132,9 +132,10 @@ std::size_t ejects_by_the_rules(const PlanCase& plan_case, const PlanResult& res
     for (PartialPlan::Taken& one : taken) {
       const AgentIndex other = one.agent;
       plan.put_back(std::move(one));
-      if (plan.conflicts(agent, way) == std::vector<AgentIndex>{} && plan.keeps_promise(agent, way)) continue;
+      if (plan.conflicts(agent, path) == std::vector<AgentIndex>{} && plan.keeps_guarantee(agent, path))
+        continue;
       if (auto around = plan.find(agent, {}, work)) {
-        way = std::move(*around);
+        path = std::move(*around);
       } else {
         plan.take_out(other);
         ejected.push_back(other);
@@ -142,7 +143,7 @@ std::size_t ejects_by_the_rules(const PlanCase& plan_case, const PlanResult& res
       }
     }
     RC_ASSERT(pass.ejected == ejected);
-    plan.insert(agent, std::move(way));
+    plan.insert(agent, std::move(path));
     waiting.pop_front();
     waiting.insert(waiting.begin(), ejected.begin(), ejected.end());
   }
@@ -156,7 +157,7 @@ Scene any_few_walks() {
   RC_PRE(scene.instance.agents.size() >= 2u);
   scene.instance.agents.resize(std::min(scene.instance.agents.size(), kMost));
   scene.solution.trajectories.resize(scene.instance.agents.size());
-  // Who begins in another one has no promise to keep.
+  // Who begins in another one has no guarantee to keep.
   const auto& agents = scene.instance.agents;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -167,18 +168,19 @@ Scene any_few_walks() {
 }
 
 /// How deep the two bodies are in each other at the deepest, in cells; negative if they stay apart.
-double depth_cells(const Agent& one, const Trajectory& way, const Agent& other, const Trajectory& other_way) {
+double depth_cells(const Agent& one, const Trajectory& path, const Agent& other,
+                   const Trajectory& other_path) {
   double least = kForever;
-  for (const MovingDisk& a : disks_of(way, one.radius_cells)) {
-    for (const MovingDisk& b : disks_of(other_way, other.radius_cells)) {
+  for (const MovingDisk& a : disks_of(path, one.radius_cells)) {
+    for (const MovingDisk& b : disks_of(other_path, other.radius_cells)) {
       least = std::min(least, closest_approach(leg_of(a), leg_of(b)));
     }
   }
   return one.radius_cells + other.radius_cells - least;
 }
 
-/// Whether some goal is near the start of another robot, and does not overlap it. The promise lets the robot
-/// come too near within the disk of its goal then; plans are not made so.
+/// Whether some goal is near the start of another robot, and does not overlap it. The guarantee lets the
+/// robot come too near within the disk of its goal then; plans are not made so.
 bool has_goals_beside_starts(const Instance& instance) {
   for (std::size_t i = 0; i < instance.agents.size(); ++i) {
     for (std::size_t j = 0; j < instance.agents.size(); ++j) {
@@ -191,7 +193,7 @@ bool has_goals_beside_starts(const Instance& instance) {
 }
 
 /// Whether each robot keeps off the starts of those that come later.
-bool keeps_promise(const Scene& scene, double ssi_s, const PriorityOrder& order) {
+bool keeps_guarantee(const Scene& scene, double ssi_s, const PriorityOrder& order) {
   ValidationOptions options;
   options.ssi_s = ssi_s;
   options.order = order;
@@ -319,13 +321,13 @@ int main() {
     constexpr double kSureCells = 1e-7;
     const Scene scene = any_few_walks();
     const auto& agents = scene.instance.agents;
-    const auto& ways = scene.solution.trajectories;
+    const auto& paths = scene.solution.trajectories;
     bool some = false;
     for (std::size_t i = 0; i < agents.size(); ++i) {
       for (std::size_t j = 0; j < agents.size(); ++j) {
         if (i == j) continue;
-        const double depth = depth_cells(agents[i], ways[i], agents[j], ways[j]);
-        const bool found = are_in_conflict(agents[i], ways[i], agents[j].radius_cells, ways[j]);
+        const double depth = depth_cells(agents[i], paths[i], agents[j], paths[j]);
+        const bool found = are_in_conflict(agents[i], paths[i], agents[j].radius_cells, paths[j]);
         RC_LOG() << i << " and " << j << ": " << depth << " deep" << std::endl;
         if (depth > kSureCells) RC_ASSERT(found);
         if (depth <= 0) RC_ASSERT(!found);
@@ -335,8 +337,8 @@ int main() {
     RC_CLASSIFY(some, "some conflicts");
   });
 
-  passed &=
-      property("StartPrecedence: the first order by preference that keeps the promise, if there is any", [] {
+  passed &= property(
+      "StartPrecedence: the first order by preference that keeps the guarantee, if there is any", [] {
         const Scene scene = any_few_walks();
         const std::size_t robots = scene.instance.agents.size();
         const double ssi_s = *rc::gen::element(kInfiniteSsi, 0.5, 2.0, 5.0, 0.0, kInfiniteSsi);
@@ -344,14 +346,14 @@ int main() {
         std::iota(preferred.begin(), preferred.end(), AgentIndex{0});
         Random random(at_full_size([] { return *rc::gen::arbitrary<std::uint64_t>(); }));
         random.shuffle(preferred);
-        // Those that keep the promise, by the places that their robots have in the preferred order.
+        // Those that keep the guarantee, by the places that their robots have in the preferred order.
         std::vector<std::size_t> ranks(robots);
         std::iota(ranks.begin(), ranks.end(), std::size_t{0});
         std::optional<PriorityOrder> expected;
         do {
           PriorityOrder order;
           for (const std::size_t rank : ranks) order.push_back(preferred[rank]);
-          if (keeps_promise(scene, ssi_s, order)) expected = order;
+          if (keeps_guarantee(scene, ssi_s, order)) expected = order;
         } while (!expected && std::next_permutation(ranks.begin(), ranks.end()));
 
         StartPrecedence precedence(scene.instance, ssi_s);
@@ -371,7 +373,7 @@ int main() {
         RC_CLASSIFY(!expected, "no order");
         RC_CLASSIFY(expected && *expected != preferred, "not the preferred one");
         const std::optional<PriorityOrder> found = precedence.order(preferred);
-        if (found) RC_ASSERT(keeps_promise(scene, ssi_s, *found));
+        if (found) RC_ASSERT(keeps_guarantee(scene, ssi_s, *found));
         if (ssi_s == kInfiniteSsi && has_goals_beside_starts(scene.instance)) return;
         RC_ASSERT(closes == !expected);
         if (expected) RC_ASSERT(found == expected);

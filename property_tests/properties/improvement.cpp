@@ -1,5 +1,5 @@
 // Large neighbourhood search: what it gives is never worse than what it was given, as right,
-// keeps the same promise, and depends on no clock.
+// keeps the same guarantee, and depends on no clock.
 #include "sipplab/improve.hpp"
 
 #include <rapidcheck.h>
@@ -72,10 +72,10 @@ Attempt first_better(const Round& round, PartialPlan& plan) {
 }
 
 /// Straight sections between all cells at which a disk may be, shortest paths by Floyd and Warshall.
-class AllWays {
+class AllPaths {
  public:
-  AllWays(const GridMap& map, const LineOfSight& line_of_sight)
-      : cells_(map.cell_count()), ways_(cells_ * cells_, kForever) {
+  AllPaths(const GridMap& map, const LineOfSight& line_of_sight)
+      : cells_(map.cell_count()), paths_(cells_ * cells_, kForever) {
     for (std::size_t a = 0; a < cells_; ++a) {
       for (std::size_t b = 0; b < cells_; ++b) {
         if (!line_of_sight.is_legal(map.cell(a)) || !line_of_sight.is_legal(map.cell(b))) continue;
@@ -88,11 +88,11 @@ class AllWays {
       }
     }
   }
-  double& at(std::size_t a, std::size_t b) { return ways_[a * cells_ + b]; }
+  double& at(std::size_t a, std::size_t b) { return paths_[a * cells_ + b]; }
 
  private:
   std::size_t cells_;
-  std::vector<double> ways_;
+  std::vector<double> paths_;
 };
 
 /// Rounding of sums of a few dozen lengths.
@@ -205,16 +205,16 @@ int main() {
     }
   });
 
-  passed &= property("improve (2)(3): valid, and it keeps the promise where it was kept", [] {
+  passed &= property("improve (2)(3): valid, and it keeps the guarantee where it was kept", [] {
     const Planned planned = any_planned();
     const PlannerOptions options = any_improve_options(planned.plan_case.options);
     const ImproveResult result = improved(planned, options);
     RC_ASSERT(result.order.has_value());
-    RC_ASSERT(result.log.keeps_promise);
+    RC_ASSERT(result.log.keeps_guarantee);
     assert_valid(planned.plan_case.instance, result.solution, {options.ssi_s, *result.order, options.rules});
   });
 
-  passed &= property("improve (2)(3): a promise that was not made is made only where it holds", [] {
+  passed &= property("improve (2)(3): a guarantee that was not made is made only where it holds", [] {
     const Planned planned = any_planned();
     PlannerOptions options = any_improve_options(planned.plan_case.options);
     options.ssi_s = *rc::gen::element(1.0, 2.5, 5.0, kInfiniteSsi);
@@ -271,15 +271,15 @@ int main() {
     RC_ASSERT(result.log.bound.makespan_s <= makespan_s(result.solution) + kRoundingCells);
   });
 
-  passed &= property("static times are those of the shortest of all ways", [] {
+  passed &= property("static times are those of the shortest of all paths", [] {
     const PlanCase plan_case = *any_case();
     const Instance& instance = plan_case.instance;
     RC_PRE(!instance.agents.empty() && instance.map.cell_count() <= 100);
     note_case(plan_case);
     const Agent& agent = instance.agents.front();
     const LineOfSight line_of_sight(instance.map, agent.radius_cells);
-    AllWays ways(instance.map, line_of_sight);
-    const double shortest = ways.at(instance.map.index(agent.start), instance.map.index(agent.goal));
+    AllPaths paths(instance.map, line_of_sight);
+    const double shortest = paths.at(instance.map.index(agent.start), instance.map.index(agent.goal));
     RC_PRE(shortest < kForever);
     RC_CLASSIFY(shortest > distance(agent.start, agent.goal), "round a corner");
     const double longest = shortest * *rc::gen::element(1.0, 1.1, 2.0);

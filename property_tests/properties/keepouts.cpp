@@ -76,11 +76,11 @@ enum class Verdict { kIntrudes, kKeepsAway, kNearTheEdge };
 Verdict sampled(const Keepout& keepout, const Question& question) {
   const double reach = keepout.radius + question.radius;
   const Vec2 from = centre(question.from);
-  const Vec2 way = centre(question.to) - from;
-  const auto steps = static_cast<int>(std::ceil(norm(way) / kSampleCells));
+  const Vec2 path = centre(question.to) - from;
+  const auto steps = static_cast<int>(std::ceil(norm(path) / kSampleCells));
   bool away = true;
   for (int i = 0; i <= steps; ++i) {
-    const Vec2 here = from + way * (steps == 0 ? 0.0 : static_cast<double>(i) / steps);
+    const Vec2 here = from + path * (steps == 0 ? 0.0 : static_cast<double>(i) / steps);
     const double to_place = norm(here - centre(keepout.place));
     const double to_pardoned = norm(here - pardoned_place(keepout));
     if (to_place < reach - kEdgeCells && to_pardoned > reach + kEdgeCells) return Verdict::kIntrudes;
@@ -150,7 +150,7 @@ int main() {
   bool passed = true;
 
   passed &=
-      property("add_keepout: ways and stays within reach are refused, but for those in what is pardoned",
+      property("add_keepout: paths and stays within reach are refused, but for those in what is pardoned",
                [] { agrees_with_samples(*up_to(3, any_keepout()), *up_to(24, any_question())); });
 
   passed &= property("add_keepout: changes nothing for those who keep away", [] {

@@ -135,15 +135,15 @@ int main() {
   passed &= property("is_legal and is_clear (1)(2)(3): agree with whole numbers, cell by cell",
                      [] { agrees_on_all_pairs(*any_world()); });
 
-  passed &= property("swept_run: the cells that whole numbers say, on short ways", [] {
-    constexpr int kWays = 50;
-    for (int i = 0; i < kWays; ++i) {
+  passed &= property("swept_run: the cells that whole numbers say, on short paths", [] {
+    constexpr int kPaths = 50;
+    for (int i = 0; i < kPaths; ++i) {
       const Fraction radius = *any_fraction();
       agrees_on_all_rows(*any_displacement(12), radius);
     }
   });
 
-  passed &= property("swept_run: the cells that whole numbers say, on long ways", [] {
+  passed &= property("swept_run: the cells that whole numbers say, on long paths", [] {
     const Fraction radius = *any_fraction();
     agrees_on_all_rows(*any_displacement(150), radius);
   });

@@ -30,7 +30,7 @@ constexpr std::int32_t kFarthest = 12;
 
 /// Lengths of shortest paths from a cell over steps that `may_step(from, to)`; infinity if there is none.
 template <class MayStep>
-std::vector<double> shortest_ways(const GridMap& map, Cell from, int k, MayStep&& may_step) {
+std::vector<double> shortest_paths(const GridMap& map, Cell from, int k, MayStep&& may_step) {
   std::vector<double> length(map.cell_count(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -54,12 +54,12 @@ std::vector<double> shortest_ways(const GridMap& map, Cell from, int k, MayStep&
 }
 
 /// By k.
-std::vector<std::vector<double>> shortest_ways_of_all(const GridMap& map, Cell from) {
-  std::vector<std::vector<double>> ways(kMaxConnectedness + 1);
+std::vector<std::vector<double>> shortest_paths_of_all(const GridMap& map, Cell from) {
+  std::vector<std::vector<double>> paths(kMaxConnectedness + 1);
   for (int k = kMinConnectedness; k <= kMaxConnectedness; ++k) {
-    ways[static_cast<std::size_t>(k)] = shortest_ways(map, from, k, [](Cell, Cell) { return true; });
+    paths[static_cast<std::size_t>(k)] = shortest_paths(map, from, k, [](Cell, Cell) { return true; });
   }
-  return ways;
+  return paths;
 }
 
 /// A small map with a wall here and there, for a disk that some of its cells have room for.
@@ -102,18 +102,18 @@ int main() {
   passed &= property("neighbourhood_distance: is what Dijkstra's algorithm finds on an empty grid", [] {
     static const GridMap kMap(2 * kHalfSide + 1, 2 * kHalfSide + 1);
     static const Cell kMiddle{kHalfSide, kHalfSide};
-    static const std::vector<std::vector<double>> kWays = shortest_ways_of_all(kMap, kMiddle);
+    static const std::vector<std::vector<double>> kPaths = shortest_paths_of_all(kMap, kMiddle);
     const Cell drawn = *any_cell(2 * kFarthest + 1, 2 * kFarthest + 1);
     const Cell to{drawn.x + kHalfSide - kFarthest, drawn.y + kHalfSide - kFarthest};
     for (int k = kMinConnectedness; k <= kMaxConnectedness; ++k) {
-      const double expected = kWays[static_cast<std::size_t>(k)][kMap.index(to)];
+      const double expected = kPaths[static_cast<std::size_t>(k)][kMap.index(to)];
       RC_ASSERT(nearly(neighbourhood_distance(kMiddle, to, k), expected));
       RC_ASSERT(nearly(neighbourhood_distance(to, kMiddle, k), expected));
     }
   });
 
   passed &=
-      property("detour_cells: what Dijkstra's algorithm finds among obstacles beyond the empty grid", [] {
+      property("excess_cells: what Dijkstra's algorithm finds among obstacles beyond the empty grid", [] {
         const Maze maze = any_maze();
         RC_PRE(!maze.legal.empty());
         const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
@@ -129,22 +129,22 @@ int main() {
         bool longer = false;
         for (int round = 0; round < 3; ++round) {
           const Cell goal = *rc::gen::elementOf(goals);
-          const std::vector<double> ways = shortest_ways(maze.map, goal, k, may_step);
+          const std::vector<double> paths = shortest_paths(maze.map, goal, k, may_step);
           distances.set_goal(goal);
           for (int i = 0; i < 5; ++i) {
             const Cell cell = any_place();
-            const double way = ways[maze.map.index(cell)];
-            const double detour = distances.detour_cells(cell);
-            if (way == std::numeric_limits<double>::infinity()) {
-              RC_ASSERT(detour == way);
+            const double path = paths[maze.map.index(cell)];
+            const double excess = distances.excess_cells(cell);
+            if (path == std::numeric_limits<double>::infinity()) {
+              RC_ASSERT(excess == path);
             } else {
-              RC_ASSERT(nearly(neighbourhood_distance(cell, goal, k) + detour, way));
-              RC_ASSERT(detour == 0 || detour > kRoundingCells);
-              longer = longer || detour > 0;
+              RC_ASSERT(nearly(neighbourhood_distance(cell, goal, k) + excess, path));
+              RC_ASSERT(excess == 0 || excess > kRoundingCells);
+              longer = longer || excess > 0;
             }
           }
         }
-        RC_CLASSIFY(longer, "some detours");
+        RC_CLASSIFY(longer, "some paths longer than on the empty grid");
       });
 
   passed &= property("neighbourhood: each of the 2^k directions that halving sectors gives, once", [] {
@@ -169,15 +169,15 @@ int main() {
     }
   });
 
-  passed &= property("neighbourhood_distance: more neighbours shorten ways, down to the straight line", [] {
+  passed &= property("neighbourhood_distance: more neighbours shorten paths, down to the straight line", [] {
     const Cell from = any_far_cell();
     const Cell to = any_far_cell();
     double shorter = distance(from, to);
     for (int k = kMaxConnectedness; k >= kMinConnectedness; --k) {
-      const double way = neighbourhood_distance(from, to, k);
-      RC_ASSERT(way >= shorter - kRoundingCells);
-      RC_ASSERT(way == neighbourhood_distance(to, from, k));
-      shorter = way;
+      const double path = neighbourhood_distance(from, to, k);
+      RC_ASSERT(path >= shorter - kRoundingCells);
+      RC_ASSERT(path == neighbourhood_distance(to, from, k));
+      shorter = path;
     }
     RC_ASSERT(neighbourhood_distance(from, from, kMaxConnectedness) == 0);
   });

@@ -48,22 +48,22 @@ bool comes_first(const std::array<double, 3>& one, const std::array<double, 3>& 
 
 /// Lengths of the shortest ways of straight sections (Bellman 1958); kForever if there is none.
 double shortest_way(const GridMap& map, const LineOfSight& sight, Cell from, Cell to) {
-  std::vector<double> ways(map.cell_count(), kForever);
-  ways[map.index(from)] = 0;
+  std::vector<double> paths(map.cell_count(), kForever);
+  paths[map.index(from)] = 0;
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::size_t a = 0; a < ways.size(); ++a) {
-      if (ways[a] == kForever) continue;
-      for (std::size_t b = 0; b < ways.size(); ++b) {
-        const double way = ways[a] + distance(map.cell(a), map.cell(b));
-        if (way >= ways[b] - kRounding || !sight.is_legal(map.cell(b))) continue;
+    for (std::size_t a = 0; a < paths.size(); ++a) {
+      if (paths[a] == kForever) continue;
+      for (std::size_t b = 0; b < paths.size(); ++b) {
+        const double path = paths[a] + distance(map.cell(a), map.cell(b));
+        if (path >= paths[b] - kRounding || !sight.is_legal(map.cell(b))) continue;
         if (!sight.is_clear(map.cell(a), map.cell(b))) continue;
-        ways[b] = way;
+        paths[b] = path;
         changed = true;
       }
     }
   }
-  return ways[map.index(to)];
+  return paths[map.index(to)];
 }
 
 /// Robots of all sizes on small maps with many walls.
@@ -80,11 +80,11 @@ struct InRepair {
   Solution solution;
   std::unique_ptr<SingleAgentPlanner> planner;
   std::unique_ptr<PartialPlan> plan;
-  std::vector<Trajectory> fastest_ways;
+  std::vector<Trajectory> fastest_paths;
   std::vector<double> static_times_s;
 
   const Instance& instance() const { return plan_case.instance; }
-  Neighbours neighbours() const { return {plan_case.instance, *plan, static_times_s, fastest_ways}; }
+  Neighbours neighbours() const { return {plan_case.instance, *plan, static_times_s, fastest_paths}; }
 };
 
 std::unique_ptr<InRepair> any_in_repair() {
@@ -109,7 +109,7 @@ std::unique_ptr<InRepair> any_in_repair() {
   for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
     SearchStatistics work;
     auto alone = nobody.find(agent, {}, work);
-    repaired->fastest_ways.push_back(alone ? *alone : result.solution.trajectories[agent]);
+    repaired->fastest_paths.push_back(alone ? *alone : result.solution.trajectories[agent]);
     repaired->static_times_s.push_back(distance(instance.agents[agent].start, instance.agents[agent].goal) /
                                        instance.agents[agent].speed_cells_per_s);
   }
@@ -224,15 +224,16 @@ int main() {
               std::abs(agent.start.x - agent.goal.x) + std::abs(agent.start.y - agent.goal.y);
           const double line = distance(agent.start, agent.goal);
           const LineOfSight sight(instance.map, agent.radius_cells);
-          const double way = any_angle ? shortest_way(instance.map, sight, agent.start, agent.goal)
-                                       : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, k);
-          all_have_ways = all_have_ways && way < kForever;
-          if (!any_angle && k == 2) RC_ASSERT(way >= blocks - kRounding);
+          const double path = any_angle
+                                  ? shortest_way(instance.map, sight, agent.start, agent.goal)
+                                  : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, k);
+          all_have_ways = all_have_ways && path < kForever;
+          if (!any_angle && k == 2) RC_ASSERT(path >= blocks - kRounding);
           const double straight_s = (any_angle || k > 2 ? line : blocks) / agent.speed_cells_per_s;
           straight.flowtime_s += straight_s;
           straight.makespan_s = std::max(straight.makespan_s, straight_s);
-          shortest.flowtime_s += way / agent.speed_cells_per_s;
-          shortest.makespan_s = std::max(shortest.makespan_s, way / agent.speed_cells_per_s);
+          shortest.flowtime_s += path / agent.speed_cells_per_s;
+          shortest.makespan_s = std::max(shortest.makespan_s, path / agent.speed_cells_per_s);
         }
         RC_PRE(all_have_ways);
         const LowerBound ample = lower_bound(instance, any_angle, k);
@@ -256,23 +257,23 @@ int main() {
       property("static times are divided by speeds, on any number of threads, and below what is given", [] {
         const PlanCase plan_case = any_walled_case();
         const Instance& instance = plan_case.instance;
-        std::vector<double> ways;
+        std::vector<double> paths;
         for (const Agent& agent : instance.agents) {
           const LineOfSight sight(instance.map, agent.radius_cells);
-          ways.push_back(shortest_way(instance.map, sight, agent.start, agent.goal));
-          RC_PRE(ways.back() < kForever);
+          paths.push_back(shortest_way(instance.map, sight, agent.start, agent.goal));
+          RC_PRE(paths.back() < kForever);
         }
         for (const unsigned threads : {1U, 3U}) {
-          const std::vector<double> times_s = static_times_s(instance, true, 2, ways, threads);
-          RC_ASSERT(times_s.size() == ways.size());
-          for (std::size_t i = 0; i < ways.size(); ++i) {
-            RC_ASSERT(std::abs(times_s[i] - ways[i] / instance.agents[i].speed_cells_per_s) <=
+          const std::vector<double> times_s = static_times_s(instance, true, 2, paths, threads);
+          RC_ASSERT(times_s.size() == paths.size());
+          for (std::size_t i = 0; i < paths.size(); ++i) {
+            RC_ASSERT(std::abs(times_s[i] - paths[i] / instance.agents[i].speed_cells_per_s) <=
                       kRounding * (1 + times_s[i]));
           }
         }
-        const std::vector<double> given_up_s = static_times_s(instance, true, 2, ways, 1, 0);
-        for (std::size_t i = 0; i < ways.size(); ++i) {
-          RC_ASSERT(given_up_s[i] <= ways[i] / instance.agents[i].speed_cells_per_s + kRounding);
+        const std::vector<double> given_up_s = static_times_s(instance, true, 2, paths, 1, 0);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+          RC_ASSERT(given_up_s[i] <= paths[i] / instance.agents[i].speed_cells_per_s + kRounding);
         }
         const LowerBound bound = lower_bound(given_up_s);
         RC_ASSERT(bound.flowtime_s == std::accumulate(given_up_s.begin(), given_up_s.end(), 0.0));
@@ -319,7 +320,7 @@ int main() {
     if (rule == RemovalRule::kLast || rule == RemovalRule::kCrossing) {
       // Who is in the way comes before all others.
       const std::vector<AgentIndex> crossing =
-          repaired->plan->conflicts(chosen[0], repaired->fastest_ways[chosen[0]]);
+          repaired->plan->conflicts(chosen[0], repaired->fastest_paths[chosen[0]]);
       for (std::size_t i = 1; i < chosen.size() && i <= crossing.size(); ++i) {
         RC_ASSERT(std::count(crossing.begin(), crossing.end(), chosen[i]) == 1);
       }
@@ -356,9 +357,9 @@ int main() {
       bool somebody = false;
       for (AgentIndex other = 0; other < robots; ++other) {
         if (other == chosen[0]) continue;
-        const Trajectory& way = repaired->solution.trajectories[other];
+        const Trajectory& path = repaired->solution.trajectories[other];
         somebody =
-            somebody || comes_near(way, place, time_s, kHalfWindowS - kLittleS, kWindowCells - kLittleS);
+            somebody || comes_near(path, place, time_s, kHalfWindowS - kLittleS, kWindowCells - kLittleS);
       }
       always_somebody = always_somebody && somebody;
       chosen_is_near = chosen_is_near || comes_near(repaired->solution.trajectories[chosen[1]], place, time_s,

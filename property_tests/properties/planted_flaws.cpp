@@ -211,7 +211,8 @@ int main() {
   passed &= property("a time that is no number, endless or negative is found", finds_times_that_are_none);
   passed &= property("a trajectory too few or too many is found", finds_missing_trajectories);
   passed &= property("max_violations: so many of all that there are", keeps_to_the_limit);
-  passed &= property("a promise to an order that is not one of all robots is refused", wants_an_order_of_all);
+  passed &=
+      property("a guarantee to an order that is not one of all robots is refused", wants_an_order_of_all);
 
   return passed ? 0 : 1;
 }

@@ -43,10 +43,10 @@ Planted plant(Meeting meeting, double depth_cells) {
   rests.start = rests.goal = {kMargin + along, kMargin + apart};
   planted.time_s = meeting == Meeting::kAtTheStart ? 0 : wait_s + along;
 
-  Trajectory way{drives.start, {}};
-  if (wait_s > 0) way.motions.push_back({0, wait_s, drives.start, drives.start});
-  way.motions.push_back({wait_s, wait_s + length, drives.start, drives.goal});
-  planted.scene.solution.trajectories = {{rests.start, {}}, way};
+  Trajectory path{drives.start, {}};
+  if (wait_s > 0) path.motions.push_back({0, wait_s, drives.start, drives.start});
+  path.motions.push_back({wait_s, wait_s + length, drives.start, drives.goal});
+  planted.scene.solution.trajectories = {{rests.start, {}}, path};
   return planted;
 }
 

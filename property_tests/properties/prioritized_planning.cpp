@@ -282,7 +282,7 @@ void compare_worlds(bool any_angle, Robots robots = Robots::kPlain) {
   RC_CLASSIFY(all.planned == worlds, "two robots or more in each world");
   RC_CLASSIFY(all.pardoned > 0, "goals on protected starts");
   RC_CLASSIFY(all.late > 0, "some later than contacts allow");
-  RC_CLASSIFY(all.failed > 0, "some without a way");
+  RC_CLASSIFY(all.failed > 0, "some without a path");
 }
 
 }  // namespace

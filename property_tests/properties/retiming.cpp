@@ -133,8 +133,8 @@ std::vector<Step> steps_of(const Scene& scene, const std::vector<AgentIndex>& ro
 }
 
 LinearMotion at_time(const Step& step, double begin_s) {
-  const Vec2 way = centre(step.motion.to) - centre(step.motion.from);
-  return {begin_s, begin_s + step.duration_s, centre(step.motion.from), way * (1 / step.duration_s)};
+  const Vec2 path = centre(step.motion.to) - centre(step.motion.from);
+  return {begin_s, begin_s + step.duration_s, centre(step.motion.from), path * (1 / step.duration_s)};
 }
 
 /// How much later than `first` the other one departs at least, if both are at one cell now and then:

@@ -161,14 +161,14 @@ void arrives_with_its_twin(const World& world, const SippOptions& options) {
 }
 
 /// What became of a robot among obstacles.
-enum class Meeting { kNoWay, kUnhindered, kGivesWay };
+enum class Meeting { kNoPath, kUnhindered, kGivesWay };
 
 Meeting arrives_as_early_as_exhaustive_search(const World& world) {
   const Instance instance = world.instance();
   const Outcome outcome = search(instance, plain_sipp(world));
   const auto expected_s = earliest_arrival_s(instance.map, disks_of(instance), world.robot());
   RC_ASSERT(outcome.trajectory.has_value() == expected_s.has_value());
-  if (!expected_s) return Meeting::kNoWay;
+  if (!expected_s) return Meeting::kNoPath;
   RC_LOG() << outcome.trajectory->arrival_s() << " s, expected " << *expected_s << " s" << std::endl;
   RC_ASSERT(std::abs(outcome.trajectory->arrival_s() - *expected_s) <= kArrivalS);
   return has_to_give_way(instance, *outcome.trajectory, plain_sipp(world)) ? Meeting::kGivesWay
@@ -368,10 +368,10 @@ int main() {
     for (int i = 0; i < kWorlds; ++i) {
       const Meeting meeting = arrives_as_early_as_exhaustive_search(*any_world(4));
       late += meeting == Meeting::kGivesWay;
-      unsolved += meeting == Meeting::kNoWay;
+      unsolved += meeting == Meeting::kNoPath;
     }
     RC_CLASSIFY(late > 0, "some have to give way");
-    RC_CLASSIFY(unsolved > 0, "some without a way");
+    RC_CLASSIFY(unsolved > 0, "some without a path");
   });
 
   passed &= property("SIPP and AA-SIPP keep clear of everything that moves and stands", [] {
@@ -391,21 +391,21 @@ int main() {
     RC_CLASSIFY(found >= kWorlds, "many trajectories");
   });
 
-  passed &= property("alone, SIPP goes the shortest stepwise way and AA-SIPP straight where it can", [] {
+  passed &= property("alone, SIPP takes the shortest stepwise path and AA-SIPP straight where it can", [] {
     constexpr int kWorlds = 5;
     for (int i = 0; i < kWorlds; ++i) is_straight_or_stepwise_alone(*any_world(0));
   });
 
   passed &=
-      property("SIPP arrives with its plain twin, with the map's detours in the heuristic and without", [] {
+      property("SIPP arrives with its plain twin, with the map's distances in the heuristic and without", [] {
         const World world = *any_world(5);
         SippOptions options = plain_sipp(world);
         arrives_with_its_twin(world, options);
-        options.detours = false;
+        options.static_distances = false;
         arrives_with_its_twin(world, options);
       });
 
-  passed &= property("weighted, a way is found where there is one, and no later than the weight allows", [] {
+  passed &= property("weighted, a path is found where there is one, and no later than the weight allows", [] {
     const World world = *any_world(4);
     const double weight = *any_of({1.0, 1.0625, 1.25, 2.0, 5.0});
     const Instance instance = world.instance();
@@ -419,7 +419,7 @@ int main() {
     RC_CLASSIFY(lateness > 1 + kArrivalS, "later than it might be");
   });
 
-  passed &= property("ways are pulled tight: clear of everything, and never later", [] {
+  passed &= property("paths are pulled tight: clear of everything, and never later", [] {
     constexpr int kWorlds = 5;
     int gains = 0;
     for (int i = 0; i < kWorlds; ++i) {

@@ -226,7 +226,7 @@ int main() {
       }
     }
     RC_CLASSIFY(!any, "never that near in time");
-    RC_CLASSIFY(closest.distance_cells == 0, "ways cross");
+    RC_CLASSIFY(closest.distance_cells == 0, "paths cross");
   });
 
   passed &= property("closest_within: at the time that is named, that close it is", [] {

@@ -1,4 +1,4 @@
-// Start-safe intervals: the promise that is made for the final order, and what an
+// Start-safe intervals: the guarantee that is made for the final order, and what an
 // interval of 0 leaves alone. [AY18], section 3.
 #include <rapidcheck.h>
 
@@ -33,7 +33,7 @@ Solved any_solved(const rc::Gen<double>& ssi) {
   return solved;
 }
 
-void keeps_its_promise(const Solved& solved) {
+void keeps_its_guarantee(const Solved& solved) {
   if (solved.result.status != PlanStatus::kSolved) return;
   ValidationOptions options;
   options.ssi_s = solved.plan_case.options.ssi_s;
@@ -63,12 +63,12 @@ int main() {
   bool passed = true;
 
   passed &= property("no robot comes too near a lower-priority start during [0, k], k a fraction",
-                     [] { keeps_its_promise(any_solved(any_eighths())); });
+                     [] { keeps_its_guarantee(any_solved(any_eighths())); });
 
   passed &= property("no robot ever comes too near a lower-priority start, its own goal's disk excepted",
-                     [] { keeps_its_promise(any_solved(rc::gen::just(kInfiniteSsi))); });
+                     [] { keeps_its_guarantee(any_solved(rc::gen::just(kInfiniteSsi))); });
 
-  passed &= property("the promise holds at many times as well", [] {
+  passed &= property("the guarantee holds at many times as well", [] {
     const Solved solved = any_solved(any_eighths());
     RC_PRE(solved.result.status == PlanStatus::kSolved);
     const auto& agents = solved.plan_case.instance.agents;

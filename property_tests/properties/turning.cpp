@@ -36,7 +36,7 @@ struct Planned {
   PlanResult result;
 
   Scene scene() const { return {plan_case.instance, result.solution}; }
-  ValidationOptions promises() const {
+  ValidationOptions guarantees() const {
     return {plan_case.options.ssi_s, result.order(), plan_case.options.rules};
   }
 };
@@ -100,8 +100,8 @@ void hasten(Trajectory& trajectory, std::size_t first, double seconds) {
 }
 
 /// Degrees, counter-clockwise as seen, of a way of the grid.
-double direction_deg(Cell way) {
-  const double degrees = std::atan2(-way.y, way.x) * (180 / std::acos(-1.0));
+double direction_deg(Cell path) {
+  const double degrees = std::atan2(-path.y, path.x) * (180 / std::acos(-1.0));
   return degrees < 0 ? degrees + 360 : degrees;
 }
 
@@ -203,10 +203,10 @@ int main() {
     const Planned planned = any_planned();
     RC_PRE(planned.result.status == PlanStatus::kSolved);
     const ValidationReport report =
-        validate(planned.plan_case.instance, planned.result.solution, planned.promises());
+        validate(planned.plan_case.instance, planned.result.solution, planned.guarantees());
     for (const Violation& violation : report.violations) RC_LOG() << violation.message << '\n';
     RC_ASSERT(report.valid());
-    RC_CLASSIFY(has_turns(planned.result.solution), "turns on the way");
+    RC_CLASSIFY(has_turns(planned.result.solution), "turns on the path");
   });
 
   passed &= property("turns are stated, each as long as its angle takes", [] {
@@ -248,15 +248,15 @@ int main() {
 
   passed &= property("the verdict stays after a quarter turn, in a mirror, and at half the speed", [] {
     const Planned planned = any_solved();
-    ValidationOptions promises = planned.promises();
+    ValidationOptions guarantees = planned.guarantees();
     const auto is_valid = [&](const Scene& scene) {
-      return validate(scene.instance, scene.solution, promises).valid();
+      return validate(scene.instance, scene.solution, guarantees).valid();
     };
     RC_ASSERT(is_valid(rotated(planned.scene())));
     RC_ASSERT(is_valid(reflected(planned.scene())));
-    promises.ssi_s *= 2;
-    promises.rules.wait_before_move_s *= 2;
-    promises.rules.inflate_time_s *= 2;
+    guarantees.ssi_s *= 2;
+    guarantees.rules.wait_before_move_s *= 2;
+    guarantees.rules.inflate_time_s *= 2;
     RC_ASSERT(is_valid(slowed(planned.scene(), 2)));
   });
 
@@ -325,8 +325,8 @@ int main() {
     RC_ASSERT(std::abs(makespan_s(one.solution) - makespan_s(other.solution)) <= kRoundingS);
   });
 
-  passed &=
-      property("stepwise, with the map's detours in the heuristic and without it robots arrive together", [] {
+  passed &= property(
+      "stepwise, with the map's distances in the heuristic and without it robots arrive together", [] {
         PlanCase plan_case = *any_case();
         plan_case.options.any_angle = false;
         plan_case.options.rescheduling = Rescheduling::kNone;
@@ -334,7 +334,7 @@ int main() {
         note_case(plan_case);
         SippOptions options{false, plan_case.options.connectedness, 1, plan_case.options.rules};
         TurningSearch with(plan_case.instance, options);
-        options.detours = false;
+        options.static_distances = false;
         TurningSearch without(plan_case.instance, options);
         const PlanResult one = plan_prioritized(plan_case.instance, plan_case.options, with);
         const PlanResult other = plan_prioritized(plan_case.instance, plan_case.options, without);
@@ -371,7 +371,7 @@ int main() {
         expected = ViolationKind::kHeading;
         break;
     }
-    RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.promises()), stop->agent, expected));
+    RC_ASSERT(finds(validate(scene.instance, scene.solution, planned.guarantees()), stop->agent, expected));
   });
 
   passed &= property("the validator finds a delay that is too short, also after a turn in parts", [] {
@@ -380,7 +380,7 @@ int main() {
     note_case(plan_case);
     const PlanResult result = plan(plan_case.instance, plan_case.options);
     RC_PRE(result.status == PlanStatus::kSolved);
-    ValidationOptions promises{plan_case.options.ssi_s, result.order(), plan_case.options.rules};
+    ValidationOptions guarantees{plan_case.options.ssi_s, result.order(), plan_case.options.rules};
     Solution solution = result.solution;
     std::vector<Stop> stops;
     for (AgentIndex i = 0; i < solution.trajectories.size(); ++i) {
@@ -395,7 +395,7 @@ int main() {
     Trajectory& trajectory = solution.trajectories[stop.agent];
     // Half of the delay is left.
     TimedMotion& wait = trajectory.motions[stop.motion];
-    const double early_s = wait.end_s - wait.begin_s - promises.rules.wait_before_move_s / 2;
+    const double early_s = wait.end_s - wait.begin_s - guarantees.rules.wait_before_move_s / 2;
     wait.end_s -= early_s;
     hasten(trajectory, stop.motion + 1, early_s);
     if (*rc::gen::arbitrary<bool>()) {
@@ -412,7 +412,7 @@ int main() {
            {begin_s + turn_s, begin_s + 2 * turn_s, here, here, facing_deg}});
     }
     RC_ASSERT(
-        finds(validate(plan_case.instance, solution, promises), stop.agent, ViolationKind::kStandingTime));
+        finds(validate(plan_case.instance, solution, guarantees), stop.agent, ViolationKind::kStandingTime));
   });
 
   return passed ? 0 : 1;

@@ -14,11 +14,11 @@ namespace {
 
 /// Distance of a place to a straight move between cells.
 double to_move(Cell from, Cell to, Vec2 place) {
-  const Vec2 way = centre(to) - centre(from);
+  const Vec2 path = centre(to) - centre(from);
   const Vec2 apart = place - centre(from);
-  const double whole = squared_norm(way);
-  const double part = whole > 0 ? std::clamp(dot(apart, way) / whole, 0.0, 1.0) : 0.0;
-  return norm(apart - way * part);
+  const double whole = squared_norm(path);
+  const double part = whole > 0 ? std::clamp(dot(apart, path) / whole, 0.0, 1.0) : 0.0;
+  return norm(apart - path * part);
 }
 
 /// Whether the robot's body keeps clear of the others' starts and goals on a move.
@@ -34,7 +34,7 @@ bool is_clear(const Instance& instance, AgentIndex agent, Cell from, Cell to) {
   return true;
 }
 
-bool has_clear_way(const Instance& instance, AgentIndex agent) {
+bool has_clear_path(const Instance& instance, AgentIndex agent) {
   const GridMap& map = instance.map;
   const Agent& robot = instance.agents[agent];
   if (!is_clear(instance, agent, robot.start, robot.start)) return false;
@@ -64,7 +64,7 @@ bool has_clear_way(const Instance& instance, AgentIndex agent) {
 bool is_well_formed(const Instance& instance) {
   if (!instance.obstacles.empty()) return false;
   for (AgentIndex i = 0; i < instance.agents.size(); ++i) {
-    if (!has_clear_way(instance, i)) return false;
+    if (!has_clear_path(instance, i)) return false;
   }
   return true;
 }

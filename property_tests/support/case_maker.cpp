@@ -104,13 +104,13 @@ Instance convoy(Random& random, int size) {
   Instance instance;
   const std::int32_t robots = draw_between(random, 2, 3 + size / 25);
   const std::int32_t shift = draw_between(random, 1, 4);
-  const std::int32_t bend = draw_between(random, 0, 2);
-  instance.map = GridMap(robots + shift, 1 + bend);
+  const std::int32_t corner = draw_between(random, 0, 2);
+  instance.map = GridMap(robots + shift, 1 + corner);
   const double slow = random.one_in(3) ? draw_speed(random) : 1.0;
   for (std::int32_t i = 0; i < robots; ++i) {
     Agent agent;
     agent.start = {i, 0};
-    agent.goal = {i + shift, random.one_in(2) ? 0 : bend};
+    agent.goal = {i + shift, random.one_in(2) ? 0 : corner};
     agent.speed_cells_per_s = i == 0 ? slow : 1.0;
     try_add(instance, agent);
   }

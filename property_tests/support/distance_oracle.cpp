@@ -22,11 +22,11 @@ Vec2 place_at(const Leg& leg, double time_s) {
 
 /// Distance of the origin to the segment from a to b.
 double origin_to_segment(Vec2 a, Vec2 b) {
-  const Vec2 way = b - a;
-  const double whole = squared_norm(way);
+  const Vec2 path = b - a;
+  const double whole = squared_norm(path);
   if (whole == 0) return norm(a);
-  const double part = std::clamp(-dot(a, way) / whole, 0.0, 1.0);
-  return norm(a + way * part);
+  const double part = std::clamp(-dot(a, path) / whole, 0.0, 1.0);
+  return norm(a + path * part);
 }
 
 /// Least distance over the time that both legs last, which may be rounded away if it
@@ -91,10 +91,10 @@ BisectedSpan below(double low, double high, double into_rest_s, double reach, co
 
 }  // namespace
 
-Leg leg_of(const MovingDisk& disk) { return {disk.way.from, disk.way.to, disk.begin_s, disk.end_s}; }
+Leg leg_of(const MovingDisk& disk) { return {disk.path.from, disk.path.to, disk.begin_s, disk.end_s}; }
 
 Leg leg_of(const Move& move, double departure_s) {
-  return {move.way.from, move.way.to, departure_s, departure_s + move.way.length / move.speed};
+  return {move.path.from, move.path.to, departure_s, departure_s + move.path.length / move.speed};
 }
 
 Leg leg_at(Vec2 place) { return {place, place, 0, kForever}; }
@@ -119,7 +119,7 @@ double rounding_cells(double time_s, double speed) {
 
 BisectedSpan bisect_departures(const Move& move, const MovingDisk& disk, double reach) {
   const Leg obstacle = leg_of(disk);
-  return below(disk.begin_s - move.way.length / move.speed, disk.end_s, disk.begin_s + kIntoRestS, reach,
+  return below(disk.begin_s - move.path.length / move.speed, disk.end_s, disk.begin_s + kIntoRestS, reach,
                [&](double departure_s) {
                  return least_together(leg_of(move, departure_s), obstacle, time_rounding_s(departure_s));
                });

@@ -56,8 +56,8 @@ MovingDisk Encounter::obstacle() const {
   if (obstacle_from == obstacle_to) {
     return MovingDisk::resting(centre(obstacle_from), begin_s, begin_s + rest_s, obstacle_radius);
   }
-  const Displacement way(centre(obstacle_from), centre(obstacle_to));
-  return MovingDisk::moving(way, begin_s, begin_s + way.length / obstacle_speed, obstacle_radius);
+  const Displacement path(centre(obstacle_from), centre(obstacle_to));
+  return MovingDisk::moving(path, begin_s, begin_s + path.length / obstacle_speed, obstacle_radius);
 }
 
 std::ostream& operator<<(std::ostream& out, const Encounter& encounter) {

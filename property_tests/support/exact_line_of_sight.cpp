@@ -45,11 +45,11 @@ std::array<Point, 4> corners_of(Point centre) {
 bool meet(Point from, Point to, Point centre) {
   if (std::max(from.x, to.x) < centre.x - 1 || std::min(from.x, to.x) > centre.x + 1) return false;
   if (std::max(from.y, to.y) < centre.y - 1 || std::min(from.y, to.y) > centre.y + 1) return false;
-  const Point way = minus(to, from);
+  const Point path = minus(to, from);
   bool left = false;
   bool right = false;
   for (const Point corner : corners_of(centre)) {
-    const std::int64_t side = cross(way, minus(corner, from));
+    const std::int64_t side = cross(path, minus(corner, from));
     left = left || side >= 0;
     right = right || side <= 0;
   }
@@ -66,12 +66,12 @@ bool exactly_overlaps(Cell from_cell, Cell to_cell, Fraction radius, Cell blocke
   // Apart, they are nearest at an end of the segment or at a corner of the square.
   if (is_less(squared_to_square(from, centre), 1, radius)) return true;
   if (is_less(squared_to_square(to, centre), 1, radius)) return true;
-  const Point way = minus(to, from);
-  const std::int64_t length_squared = dot(way, way);
+  const Point path = minus(to, from);
+  const std::int64_t length_squared = dot(path, path);
   for (const Point corner : corners_of(centre)) {
-    const std::int64_t along = dot(way, minus(corner, from));
+    const std::int64_t along = dot(path, minus(corner, from));
     if (along <= 0 || along >= length_squared) continue;
-    const std::int64_t aside = cross(way, minus(corner, from));
+    const std::int64_t aside = cross(path, minus(corner, from));
     if (is_less(aside * aside, length_squared, radius)) return true;
   }
   return false;

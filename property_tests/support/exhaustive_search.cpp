@@ -28,13 +28,13 @@ void add_unsafe(const BisectedSpan& span, Contacts contacts, double extra_s,
                     allowed && span.contact_end ? end_s - kSlotS : end_s + kSlotS});
 }
 
-/// Whether the boxes around a way and around the disk's are within reach. If not, the two need no bisection.
+/// Whether the boxes around a path and around the disk's are within reach. If not, the two need no bisection.
 bool may_meet(Vec2 from, Vec2 to, const MovingDisk& disk, double reach) {
   const auto gap = [](double a, double b, double c, double d) {
     return std::max(std::min(a, b) - std::max(c, d), std::min(c, d) - std::max(a, b));
   };
-  return gap(from.x, to.x, disk.way.from.x, disk.way.to.x) < reach &&
-         gap(from.y, to.y, disk.way.from.y, disk.way.to.y) < reach;
+  return gap(from.x, to.x, disk.path.from.x, disk.path.to.x) < reach &&
+         gap(from.y, to.y, disk.path.from.y, disk.path.to.y) < reach;
 }
 
 /// What the unsafe spans leave of [0, infinity).

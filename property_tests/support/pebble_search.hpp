@@ -10,7 +10,7 @@
 
 namespace sipplab {
 
-/// The case, with what lies beyond the complete planner taken back to what it can plan: no
+/// The case, with what lies beyond LaCAM taken back to what it can plan: no
 /// obstacles, radii up to 0.5, the speed of the first robot.
 PlanCase within_complete_model(PlanCase plan_case);
 

@@ -1,4 +1,4 @@
-// The complete planner on small maps that a person can draw.
+// LaCAM on small maps that a person can draw.
 #include "planner/complete/complete_planner.hpp"
 
 #include <gtest/gtest.h>
@@ -14,14 +14,14 @@
 namespace sipplab {
 namespace {
 
-using Ways = std::vector<std::pair<Cell, Cell>>;
+using Paths = std::vector<std::pair<Cell, Cell>>;
 
-Instance instance_of(std::int32_t width, std::int32_t height, const Ways& ways,
+Instance instance_of(std::int32_t width, std::int32_t height, const Paths& paths,
                      const std::vector<Cell>& blocked = {}) {
   Instance instance;
   instance.map = GridMap(width, height);
   for (const Cell cell : blocked) instance.map.set_blocked(cell, true);
-  for (const auto& [start, goal] : ways) {
+  for (const auto& [start, goal] : paths) {
     Agent agent;
     agent.start = start;
     agent.goal = goal;
@@ -52,25 +52,25 @@ TEST(CompletePlanner, ALoneRobotGoesStraightOnWithoutAStop) {
 }
 
 TEST(CompletePlanner, ARingWithoutAFreeCellCannotTurn) {
-  const Ways ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}, {{0, 1}, {0, 0}}};
+  const Paths ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}, {{0, 1}, {0, 0}}};
   EXPECT_EQ(planned(instance_of(2, 2, ring)).status, LacamStatus::kUnsolvable);
 }
 
 TEST(CompletePlanner, ARingWithAFreeCellTurns) {
-  const Ways ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}};
+  const Paths ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}};
   EXPECT_EQ(planned(instance_of(2, 2, ring)).status, LacamStatus::kSolved);
 }
 
 TEST(CompletePlanner, ARingOfSevenTurnsInNineCells) {
   const std::vector<Cell> round = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  Ways ring;
+  Paths ring;
   for (std::size_t i = 0; i < round.size(); ++i) ring.push_back({round[i], round[(i + 1) % round.size()]});
   ring.pop_back();  // all eight cannot, with one free cell: that is an odd permutation
   EXPECT_EQ(planned(instance_of(3, 3, ring)).status, LacamStatus::kSolved);
 }
 
 TEST(CompletePlanner, TwoRobotsCannotPassInACorridorButInABay) {
-  const Ways swap = {{{0, 0}, {4, 0}}, {{4, 0}, {0, 0}}};
+  const Paths swap = {{{0, 0}, {4, 0}}, {{4, 0}, {0, 0}}};
   EXPECT_EQ(planned(instance_of(5, 1, swap)).status, LacamStatus::kUnsolvable);
   const std::vector<Cell> bay = {{0, 1}, {1, 1}, {3, 1}, {4, 1}};
   EXPECT_EQ(planned(instance_of(5, 2, swap, bay)).status, LacamStatus::kSolved);
@@ -109,9 +109,9 @@ TEST(CompletePlanner, TheOrderPutsThoseFirstWhoseStartsAreCrossed) {
   EXPECT_EQ(result.ssi_kept_s, 5);
 }
 
-TEST(CompletePlanner, APromiseThatNoOrderKeepsEndsWithTheCrossingThatBreaksIt) {
+TEST(CompletePlanner, AGuaranteeThatNoOrderKeepsEndsWithTheCrossingThatBreaksIt) {
   // Three of four cells: each robot ends on the start of the next.
-  const Ways ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 0}}};
+  const Paths ring = {{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 0}}};
   const CompleteResult result = planned(instance_of(2, 2, ring), 60);
   ASSERT_EQ(result.status, LacamStatus::kSolved);
   EXPECT_LT(result.ssi_kept_s, 60);
@@ -127,11 +127,11 @@ TEST(CompletePlanner, RefusesWhatIsBeyondItsModel) {
   instance.agents[1].radius_cells = 0.75;
   ASSERT_TRUE(find_beyond_complete(instance));
   EXPECT_EQ(find_beyond_complete(instance)->what, "agent b: radius 0.75");
-  EXPECT_EQ(find_beyond_complete(instance)->expected, "at most 0.5 for the complete planner");
+  EXPECT_EQ(find_beyond_complete(instance)->expected, "at most 0.5 for LaCAM");
   instance.agents[1].radius_cells = 0.5;
   instance.agents[1].speed_cells_per_s = 2;
   EXPECT_EQ(find_beyond_complete(instance)->what, "agent b: speed 2");
-  EXPECT_EQ(find_beyond_complete(instance)->expected, "the speed of agent 0, 1, for the complete planner");
+  EXPECT_EQ(find_beyond_complete(instance)->expected, "the speed of agent 0, 1, for LaCAM");
   instance.agents[1].speed_cells_per_s = 1;
   instance.obstacles.push_back({"o", 0.5, Trajectory{{1, 3}, {}}});
   EXPECT_EQ(find_beyond_complete(instance)->what, "the instance has dynamic obstacles");

@@ -1,4 +1,4 @@
-// Generated instances: what they promise, for every seed, map and size.
+// Generated instances: what they guarantee, for every seed, map and size.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -69,9 +69,9 @@ TEST(IoDiscreteSolution, OnePlanIsTheSameInAllFormats) {
 TEST(IoDiscreteSolution, FormatsHaveNamesForWhereGuessingFails) {
   const Solution plan = read(corpus_text("lacam.txt"), "lacam").solution;
   const std::pair<const char*, const char*> formats[] = {
-      {"eecbs.txt", "eecbs"},        {"eecbs.txt", "paths"},  {"paths_xy.txt", "paths"},
-      {"paths_xy.txt", "paths-xy"},  {"libmrp.yaml", "yaml"}, {"tracker.txt", "tracker"},
-      {"tracker.csv", "tracker-csv"}};
+      {"eecbs.txt", "eecbs"},       {"eecbs.txt", "paths"},  {"paths_xy.txt", "paths"},
+      {"paths_xy.txt", "paths-xy"}, {"libmrp.yaml", "yaml"}, {"tracker.txt", "tracker"},
+      {"tracker.csv", "tracker"}};
   for (const auto& [file, format] : formats) {
     EXPECT_EQ(plan_hash(read(corpus_text(file), format).solution), plan_hash(plan)) << file << " " << format;
   }

@@ -94,9 +94,9 @@ TEST(IoSolution, JsonAndXmlSurviveTheRoundTripBitByBit) {
   SolutionDocument document = awkward_document(instance);
   for (const double ssi_s : {2.5, 0.0, kInfiniteSsi}) {
     document.options->ssi_s = ssi_s;
-    for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml}) {
+    for (const char* const format : {"json", "xml"}) {
       const Input<SolutionDocument> read =
-          parse_solution(write_solution(format, instance, document), "s", instance);
+          parse_solution(*write_solution(format, instance, document), "s", instance);
       ASSERT_TRUE(read) << read.error().message();
       expect_equal(*read, document);
     }
@@ -133,9 +133,9 @@ SolutionDocument turning_document(const Instance& instance) {
 TEST(IoSolution, TurnsAndRulesSurviveTheRoundTripBitByBit) {
   const Instance instance = awkward_instance();
   const SolutionDocument document = turning_document(instance);
-  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml}) {
+  for (const char* const format : {"json", "xml"}) {
     const Input<SolutionDocument> read =
-        parse_solution(write_solution(format, instance, document), "s", instance);
+        parse_solution(*write_solution(format, instance, document), "s", instance);
     ASSERT_TRUE(read) << read.error().message();
     expect_equal(*read, document);
   }
@@ -261,9 +261,9 @@ TEST(IoSolution, NothingFoundIsNullAndReadsBack) {
   EXPECT_TRUE(json["plan_hash"].is_null());
   EXPECT_TRUE(json["trajectories"].empty());
   document.planning_seconds = 1.5;
-  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml}) {
+  for (const char* const format : {"json", "xml"}) {
     const Input<SolutionDocument> read =
-        parse_solution(write_solution(format, instance, document), "s", instance);
+        parse_solution(*write_solution(format, instance, document), "s", instance);
     ASSERT_TRUE(read) << read.error().message();
     expect_equal(*read, document);
   }
@@ -273,9 +273,9 @@ TEST(IoSolution, ZeroRobots) {
   const Instance instance;
   SolutionDocument document;
   document.makespan_s = document.flowtime_s = 0;
-  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml, SolutionFormat::kCsv}) {
+  for (const char* const format : {"json", "xml", "csv"}) {
     const Input<SolutionDocument> read =
-        parse_solution(write_solution(format, instance, document), "s", instance);
+        parse_solution(*write_solution(format, instance, document), "s", instance);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->status, "solved");
     EXPECT_TRUE(read->solution.trajectories.empty());
@@ -300,9 +300,9 @@ TEST(IoSolution, WrongSolutionsAreWrittenAndReadAsTheyAre) {
   document.solution.trajectories = {{{1, 1}, {{2, 1, {1, 1}, {1, 1}}, {5, 6, {3, 3}, {4, 4}}}},
                                     {{0, 2}, {{0, 0, {0, 2}, {7, 0}}}},
                                     {{4, 3}, {{-1, 1e308, {4, 3}, {-4, 3}}}}};
-  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml, SolutionFormat::kCsv}) {
+  for (const char* const format : {"json", "xml", "csv"}) {
     const Input<SolutionDocument> read =
-        parse_solution(write_solution(format, instance, document), "s", instance);
+        parse_solution(*write_solution(format, instance, document), "s", instance);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->solution, document.solution);
   }
@@ -314,9 +314,9 @@ TEST(IoSolution, ARobotThatNeverMovesHasAPlaceInEveryFormat) {
   // The last one stands beside its start, and the second one's first motion begins elsewhere.
   document.solution.trajectories = {
       {{0, 0}, {}}, {{0, 3}, {{0, 0, {0, 2}, {0, 2}}, {0, 1, {0, 2}, {7, 0}}}}, {{4, 2}, {}}};
-  for (const SolutionFormat format : {SolutionFormat::kJson, SolutionFormat::kXml, SolutionFormat::kCsv}) {
+  for (const char* const format : {"json", "xml", "csv"}) {
     const Input<SolutionDocument> read =
-        parse_solution(write_solution(format, instance, document), "s", instance);
+        parse_solution(*write_solution(format, instance, document), "s", instance);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->solution, document.solution);
   }

@@ -44,7 +44,7 @@ SolveResult solved_with(const std::string& words, const Instance& instance = cro
   }
   SolveResult result = solve(instance, options);
   if (result.is_solved()) {
-    const ValidationReport report = validate(instance, result.solution(), result.promises(options.rules));
+    const ValidationReport report = validate(instance, result.solution(), result.guarantees(options.rules));
     EXPECT_TRUE(report.valid()) << words << ": " << report.violations.front().message;
   }
   return result;

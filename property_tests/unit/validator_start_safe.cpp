@@ -1,4 +1,4 @@
-// The validator on the promise of start-safe intervals.
+// The validator on the guarantee of start-safe intervals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,9 +131,9 @@ TEST(ValidatorStartSafe, WantsAnOrderOfAllAgentsAndANumber) {
     ASSERT_EQ(crossing.report().violations.size(), 1u);
     EXPECT_EQ(crossing.report().violations[0].kind, ViolationKind::kStartSafeInterval);
   }
-  Crossing nothing_promised(1000);
-  nothing_promised.options.order.clear();
-  EXPECT_TRUE(nothing_promised.report().valid());
+  Crossing nothing_guaranteed(1000);
+  nothing_guaranteed.options.order.clear();
+  EXPECT_TRUE(nothing_guaranteed.report().valid());
 }
 
 }  // namespace

@@ -63,21 +63,21 @@ Instance warehouse_instance() {
   return instance.has_value() ? *instance : Instance{};
 }
 
-TEST(Detours, ExpandAFifthLessBetweenShelves) {
+TEST(StaticDistances, ExpandAFifthLessBetweenShelves) {
   const Instance instance = warehouse_instance();
   PlanResult results[2];
-  for (const bool detours : {false, true}) {
+  for (const bool static_distances : {false, true}) {
     SippOptions options;
-    options.detours = detours;
+    options.static_distances = static_distances;
     SippSearch search(instance, options);
-    results[detours] = plan_prioritized(instance, PlannerOptions{}, search);
-    ASSERT_EQ(results[detours].status, PlanStatus::kSolved);
+    results[static_distances] = plan_prioritized(instance, PlannerOptions{}, search);
+    ASSERT_EQ(results[static_distances].status, PlanStatus::kSolved);
   }
   EXPECT_LT(results[1].statistics.expansions, 0.8 * static_cast<double>(results[0].statistics.expansions));
   EXPECT_LT(flowtime_s(results[1].solution), 1.01 * flowtime_s(results[0].solution));
 }
 
-TEST(Detours, AreFoundAgainWhereTheyWereForgotten) {
+TEST(StaticDistances, AreFoundAgainWhereTheyWereForgotten) {
   // 8 MB a goal: a dozen do not fit.
   GridMap map(1024, 1024);
   map.set_blocked({500, 2}, true);
@@ -90,7 +90,7 @@ TEST(Detours, AreFoundAgainWhereTheyWereForgotten) {
     for (std::int32_t goal = 0; goal < goals; ++goal) {
       distances.set_goal({501 + goal, 2});
       // One cell up, past the corner, and down again: aslant where there is room.
-      EXPECT_NEAR(distances.detour_cells({499, 2}), goal == 0 ? 2 : std::sqrt(2.0), 1e-9);
+      EXPECT_NEAR(distances.excess_cells({499, 2}), goal == 0 ? 2 : std::sqrt(2.0), 1e-9);
     }
   }
 }

@@ -44,14 +44,14 @@ struct ImprovementLog {
   std::uint64_t iterations = 0;
   std::uint64_t improvements = 0;
   bool was_cut_short = false;  ///< by the clock or by a request to stop
-  /// Whether the promise of start-safe intervals holds.
-  bool keeps_promise = true;
+  /// Whether the guarantee of start-safe intervals holds.
+  bool keeps_guarantee = true;
 };
 
 struct ImproveResult {
   Solution solution;
-  /// A final order that keeps the promise of start-safe intervals; none if the given plan
-  /// kept it in no order: then only freedom from collisions is promised.
+  /// A final order that keeps the guarantee of start-safe intervals; none if the given plan
+  /// kept it in no order: then only freedom from collisions is guaranteed.
   std::optional<PriorityOrder> order;
   ImprovementLog log;
   SearchStatistics statistics;
@@ -60,11 +60,11 @@ struct ImproveResult {
 /// Improves a plan until a limit is reached:
 ///  (1) the result is never worse than the given plan (is_better());
 ///  (2) it is free of conflicts if the given plan is;
-///  (3) it keeps the promise of start-safe intervals if the given plan keeps it in some order;
+///  (3) it keeps the guarantee of start-safe intervals if the given plan keeps it in some order;
 ///  (4) the same input, options and number of iterations give the same result, on any number
 ///      of threads: a limit in seconds affects only the number of iterations.
 /// `order` is that of the given plan; the order of the result is close to it. Of the options, ssi_s is what
-/// the plan promises; improve, objective, seed, threads and stop say how it is improved (without `improve`
+/// the plan guarantees; improve, objective, seed, threads and stop say how it is improved (without `improve`
 /// there is no limit). The options also name the planner for one robot that finds new trajectories. REQUIRES:
 /// !find_error(instance); the solution is valid, and one of that planner's kind; !options.rules.inflates().
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,

@@ -42,9 +42,9 @@ struct PlanResult {
   Method made_by = Method::kPrioritized;  ///< what made the plan, or failed last
   SearchStatistics statistics;            ///< over all tries
   double ssi_s = 0;                       ///< start-safe interval that the last try had to keep
-  /// The promise of start-safe intervals holds for the final order in [0, ssi_kept_s]. Equals ssi_s, except
-  /// for plans of the complete planner, which makes them first and then looks for the order that keeps the
-  /// promise the longest.
+  /// The guarantee of start-safe intervals holds for the final order in [0, ssi_kept_s]. Equals ssi_s, except
+  /// for plans of LaCAM, which makes them first and then looks for the order that keeps the
+  /// guarantee the longest.
   double ssi_kept_s = 0;
   double planning_seconds = 0;  ///< wall clock, planning alone
 

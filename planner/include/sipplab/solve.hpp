@@ -33,15 +33,15 @@ struct SolveResult {
 
   bool is_solved() const { return plan.status == PlanStatus::kSolved; }
   const Solution& solution() const { return improvement ? improvement->solution : plan.solution; }
-  /// The final order; if the plan keeps the promise of start-safe intervals in no order, the one
+  /// The final order; if the plan keeps the guarantee of start-safe intervals in no order, the one
   /// in which robots were planned.
   const PriorityOrder& order() const {
     return improvement && improvement->order ? *improvement->order : plan.order();
   }
-  /// How long it keeps starts safe, in that order; 0 if it promises nothing of them.
-  double ssi_kept_s() const { return improvement && !improvement->log.keeps_promise ? 0 : plan.ssi_kept_s; }
+  /// How long it keeps starts safe, in that order; 0 if it guarantees nothing of them.
+  double ssi_kept_s() const { return improvement && !improvement->log.keeps_guarantee ? 0 : plan.ssi_kept_s; }
   /// What the validator is to check of a plan that was made under these rules.
-  ValidationOptions promises(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
+  ValidationOptions guarantees(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
   /// Wall clock, planning and improving.
   double seconds() const {
     return plan.planning_seconds + (improvement ? improvement->log.curve.back().seconds : 0);
@@ -49,7 +49,7 @@ struct SolveResult {
   SearchStatistics statistics() const;
 };
 
-/// Why options and instance do not go together, in one line: the complete planner knows neither moving
+/// Why options and instance do not go together, in one line: LaCAM knows neither moving
 /// obstacles nor different speeds, for example, and ejection and improvement nothing of inflated distances
 /// and times.
 std::optional<std::string> find_beyond(const Instance& instance, const PlannerOptions& options);

@@ -45,7 +45,7 @@ struct Violation {
 };
 
 struct ValidationOptions {
-  /// The start-safe interval whose promise is to be checked, with the final
+  /// The start-safe interval whose guarantee is to be checked, with the final
   /// priority order; 0 or an empty order: nothing to check.
   double ssi_s = 0;
   std::vector<AgentIndex> order;
@@ -67,7 +67,7 @@ struct ValidationReport {
   bool valid() const { return violations.empty(); }
 };
 
-/// Checks everything that a solution promises: endpoints, continuity, speed, static
+/// Checks everything that a solution guarantees: endpoints, continuity, speed, static
 /// clearance, turns and delays, separation of every pair for all time, what the rules ask
 /// for beyond that, start-safe intervals. Overlap
 /// up to kValidatorToleranceCells passes. Never asserts on a bad solution.
@@ -133,7 +133,7 @@ struct Certification {
 };
 
 /// Certifies each pair of robots and each robot with each dynamic obstacle. Says nothing of
-/// what a trajectory promises on its own: that is for validate(). All pairs of a robot
+/// what a trajectory guarantees on its own: that is for validate(). All pairs of a robot
 /// without trajectory are undecided. O(n^2) pairs, of which those whose paths stay apart
 /// cost a comparison.
 /// REQUIRES: !find_error(instance).
