@@ -394,7 +394,7 @@ int main() {
     const SolveResult result = solve(plan_case.instance, options);
     if (!result.improvement) return;
     RC_CLASSIFY(result.plan.ssi_kept_s < options.ssi_s, "not kept to the end");
-    RC_ASSERT(result.improvement->log.keeps_promise);
+    RC_ASSERT(result.improvement->log.keeps_guarantee);
     RC_ASSERT(result.ssi_kept_s() == result.plan.ssi_kept_s);
     RC_ASSERT(is_valid(plan_case.instance, result.solution(), result.ssi_kept_s(), result.order()));
   });
