@@ -191,7 +191,7 @@ int main() {
     RC_ASSERT(!same.improvement->log.was_cut_short);
   });
 
-  passed &= property("a request to stop ends every phase at once", [] {
+  passed &= property("a request to stop, or a time limit that is over, ends every phase at once", [] {
     PlanCase plan_case = any_limited_case();
     PlannerOptions& options = plan_case.options;
     if (!find_beyond_complete(plan_case.instance)) {
@@ -200,7 +200,11 @@ int main() {
     }
     const PlanResult free = plan(plan_case.instance, options);
     const std::atomic<bool> stop{true};
-    options.stop = &stop;
+    if (*rc::gen::arbitrary<bool>()) {
+      options.stop = &stop;
+    } else {
+      options.time_limit_s = 0;
+    }
     const PlanResult stopped = plan(plan_case.instance, options);
     RC_ASSERT(stopped.statistics.expansions == 0u);
     if (free.statistics.expansions == 0) return;

@@ -13,6 +13,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/pebble_search.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/solve.hpp"
 #include "sipplab/validator.hpp"
 
 namespace sipplab {
@@ -382,6 +383,32 @@ int main() {
     PlannerOptions options;
     options.method = Method::kComplete;
     RC_ASSERT(plan(instance, options).status == PlanStatus::kFailed);
+  });
+
+  passed &= property("what its plan keeps, its improvement keeps", [] {
+    const PlanCase plan_case = any_crowd();
+    PlannerOptions options = options_of(plan_case);
+    options.method = Method::kComplete;
+    options.improve = ImproveBudget{};
+    options.improve->iterations = 3;
+    const SolveResult result = solve(plan_case.instance, options);
+    if (!result.improvement) return;
+    RC_CLASSIFY(result.plan.ssi_kept_s < options.ssi_s, "not kept to the end");
+    RC_ASSERT(result.improvement->log.keeps_guarantee);
+    RC_ASSERT(result.ssi_kept_s() == result.plan.ssi_kept_s);
+    RC_ASSERT(is_valid(plan_case.instance, result.solution(), result.ssi_kept_s(), result.order()));
+  });
+
+  passed &= property("inflation does not go with ejection, improvement or the best plan", [] {
+    const Instance instance = (*any_case()).instance;
+    PlannerOptions options;
+    const int kind = *rc::gen::inRange(0, 4);
+    if (kind == 1) options.rescheduling = Rescheduling::kEjection;
+    if (kind == 2) options.improve = ImproveBudget{};
+    if (kind == 3) options.best = true;
+    RC_ASSERT(!find_beyond(instance, options));
+    (*rc::gen::arbitrary<bool>() ? options.rules.inflate_time_s : options.rules.inflate_distance_cells) = 0.5;
+    RC_ASSERT(find_beyond(instance, options).has_value() == (kind > 0));
   });
 
   return passed ? 0 : 1;

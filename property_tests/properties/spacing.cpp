@@ -96,6 +96,23 @@ BodyTrack follower_of(Trajectory trajectory, double apart_s) {
   return make_track(trajectory, *any_of({0.5, 0.125, 0.25}));
 }
 
+/// One that sets out when another has ended a leg, and comes to where that leg began a moment before it has
+/// to keep away no longer.
+BodyTrack crosser_of(const Trajectory& trajectory, double apart_s) {
+  constexpr double kLaterS = 0.125;
+  for (const TimedMotion& leg : trajectory.motions) {
+    const double begin_s = leg.end_s + kLaterS;
+    const double end_s = leg.begin_s + apart_s - *any_of({0.0625, 0.0, 0.25});
+    if (leg.is_wait() || end_s <= begin_s) continue;
+    const Cell from{leg.from.x + *any_of({2, -2}), leg.from.y + *any_of({2, 0, -2})};
+    const Trajectory crosser{
+        from,
+        {{0, begin_s, from, from}, {begin_s, end_s, from, leg.from}, {end_s, end_s + 0.5, leg.from, from}}};
+    return make_track(crosser, *any_of({0.5, 0.125, 0.25}));
+  }
+  return follower_of(trajectory, apart_s);
+}
+
 struct Crowd {
   std::vector<BodyTrack> bodies;
   std::size_t robots = 0;
@@ -110,8 +127,9 @@ Crowd make_crowd() {
   for (int bodies = *rc::gen::inRange(1, 4); bodies > 0; --bodies) {
     Trajectory trajectory;
     crowd.bodies.push_back(any_track(trajectory));
-    if (*rc::gen::arbitrary<bool>())
-      crowd.bodies.push_back(follower_of(trajectory, crowd.rules.inflate_time_s));
+    const int kind = *rc::gen::inRange(0, 3);
+    if (kind == 1) crowd.bodies.push_back(follower_of(trajectory, crowd.rules.inflate_time_s));
+    if (kind == 2) crowd.bodies.push_back(crosser_of(trajectory, crowd.rules.inflate_time_s));
   }
   crowd.robots = *rc::gen::inRange<std::size_t>(0, crowd.bodies.size() + 1);
   if (*rc::gen::inRange(0, 4) == 0) return crowd;
