@@ -62,9 +62,12 @@ void findings_live_as_they_are_seen() {
   const NewHistory history;
   Database database = history.open();
   std::map<std::string, Life> lives;  // by target and kind
-  const auto steps = static_cast<int>(any_whole(1, 10));
+  const auto steps = static_cast<int>(any_whole(4, 16));
   for (int minute = 0; minute < steps; ++minute) {
     Finding finding = any_finding();
+    // Mostly the same one, so that its life is long.
+    if (any_whole(0, 3) > 0) finding.target = "plan";
+    if (any_whole(0, 3) > 0) finding.kind = "claim";
     const std::string key = finding.target + ' ' + finding.kind;
     RunOrigin origin = any_origin();
     std::optional<int> commit;

@@ -640,6 +640,32 @@ void cells_are_paired_as_promised() {
   RC_CLASSIFY(expected.size() > same, "other cases");
 }
 
+/// Of each column alone: whether a case is compared with one that differs in it.
+void rules_and_robots_part_cells() {
+  const NewHistory history;
+  const auto record_alone = [&history](const CaseInfo& info, int instance) {
+    Sweep sweep{info_of(new_uuid()), {}, RunStatus::kFinished};
+    sweep.plannings.push_back({info, instance_number(instance), timed(kMillisecond)});
+    record(history.path(), sweep);
+  };
+  record_alone(whole_case(), 0);
+  const std::vector<std::string> columns = columns_of_case();
+  // Of what differs in more than the planner, those that have an instance in common are compared.
+  const auto instance = static_cast<int>(any_whole(0, 1));
+  for (const std::string& column : columns) record_alone(with_other(whole_case(), column), instance);
+  Database database = history.open();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool is_rule = std::find(std::begin(kRules), std::end(kRules), columns[i]) != std::end(kRules);
+    const bool expected = columns[i] == "planner" || (instance == 0 && !is_rule && columns[i] != "robots");
+    const auto cells =
+        must(paired_cells(database, {"", {}, {1}}, {"", {}, {static_cast<std::int64_t>(i) + 2}}));
+    RC_LOG() << columns[i] << '\n';
+    RC_ASSERT(cells.size() == (expected ? 1U : 0U));
+    if (expected) RC_ASSERT(cells[0].base_planner == whole_case().planner);
+    if (expected) RC_ASSERT(cells[0].results.size() == (instance == 0 ? 1U : 0U));
+  }
+}
+
 // --- sides --------------------------------------------------------------------------
 
 /// Of a commit, a branch, a run: which runs are meant, the newest cell of each case among them.
@@ -739,6 +765,8 @@ int main() {
   passed &= property("plannings are compared by instance and turn", plannings_are_paired_by_instance_and_turn,
                      kFewCells);
   passed &= property("cells are paired as promised", cells_are_paired_as_promised, kFewCells);
+  passed &= property("cells that differ in a rule of motion or in robots are not compared",
+                     rules_and_robots_part_cells, kManyCells / 2);
   passed &= property("a side of a comparison is the runs that it is called after",
                      sides_are_what_they_are_called, kFewCells);
 

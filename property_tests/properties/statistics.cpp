@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -20,7 +19,6 @@
 namespace sipplab::db::statistics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Sums of some thousand terms, and the tails of distributions.
 constexpr double kRounding = 1e-9;
 
