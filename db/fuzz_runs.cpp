@@ -95,9 +95,10 @@ Result<Done> record_fuzz_coverage(Database& database, const std::string& campaig
 }
 
 Result<std::string> latest_fuzz_campaign(Database& database) {
-  auto select = SIPPLAB_TRY(Statement::prepare(
-      database.connection(), "SELECT campaign FROM v_fuzz_runs ORDER BY started_utc DESC, id DESC LIMIT 1",
-      "reading fuzzing runs"));
+  auto select = SIPPLAB_TRY(Statement::prepare(database.connection(),
+                                               "SELECT campaign FROM v_fuzz_runs WHERE excluded_reason IS "
+                                               "NULL ORDER BY started_utc DESC, id DESC LIMIT 1",
+                                               "reading fuzzing runs"));
   const auto row = SIPPLAB_TRY(select.step());
   if (row) return select.text(0);
   return Unexpected{Error{ErrorKind::kNotFound,
@@ -113,7 +114,8 @@ Result<Table> list_fuzz_runs(Database& database, const FuzzRunFilter& filter) {
       "timeouts, "
       "ooms, leaks, round(wall_time_s, 1) AS wall_time_s, (SELECT round(per_input, 3) FROM v_fuzz_counts "
       "WHERE v_fuzz_counts.id = v_fuzz_runs.id AND kind = 'event' AND name = 'two robots') AS valid_share "
-      "FROM v_fuzz_runs WHERE (?1 IS NULL OR target = ?1) AND (?2 IS NULL OR campaign = ?2) "
+      "FROM v_fuzz_runs WHERE excluded_reason IS NULL AND (?1 IS NULL OR target = ?1) "
+      "AND (?2 IS NULL OR campaign = ?2) "
       "ORDER BY started_utc DESC, id DESC LIMIT ?3",
       "reading fuzzing runs", filter.target, filter.campaign, sql_limit(filter.limit))));
 }

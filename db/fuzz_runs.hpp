@@ -77,7 +77,7 @@ struct FileCoverage {
 Result<Done> record_fuzz_coverage(Database& database, const std::string& campaign,
                                   const std::vector<FileCoverage>& files);
 
-/// The campaign of the newest run; an error if there is none.
+/// The campaign of the newest run, excluded ones left out; an error if there is none.
 Result<std::string> latest_fuzz_campaign(Database& database);
 
 struct FuzzRunFilter {
@@ -86,8 +86,8 @@ struct FuzzRunFilter {
   std::size_t limit = 0;  ///< newest runs; 0 for all
 };
 /// id, started_utc, target, mode, status, executions, executions_per_s, executions_per_cpu_s,
-/// edges, features, corpus_files, crashes, timeouts, ooms, leaks, wall_time_s, valid_share; newest first.
-/// valid_share: of the inputs, those that are instances with two robots or more.
+/// edges, features, corpus_files, crashes, timeouts, ooms, leaks, wall_time_s, valid_share; newest first,
+/// excluded runs left out. valid_share: of the inputs, those that are instances with two robots or more.
 Result<Table> list_fuzz_runs(Database& database, const FuzzRunFilter& filter);
 
 /// room, lines, covered_lines, share; by room, and one row for all of planner/.

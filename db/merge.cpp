@@ -260,6 +260,17 @@ class Merge {
         "last_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.last_commit_id) "
         "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
         "AND s.last_utc > finding.last_utc",
+        "UPDATE main.finding SET first_utc = s.first_utc, "
+        "first_commit_id = (SELECT new FROM temp.key_commit_ WHERE old = s.first_commit_id) "
+        "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
+        "AND s.first_utc < finding.first_utc",
+        "UPDATE main.instance_bound SET flowtime_bound_s = max(instance_bound.flowtime_bound_s, "
+        "s.flowtime_bound_s), makespan_bound_s = max(instance_bound.makespan_bound_s, s.makespan_bound_s) "
+        "FROM shard.instance_bound AS s JOIN temp.key_instance AS m ON m.old = s.instance_id "
+        "WHERE m.new = instance_bound.instance_id AND s.any_angle = instance_bound.any_angle "
+        "AND s.connectedness = instance_bound.connectedness "
+        "AND (s.flowtime_bound_s > instance_bound.flowtime_bound_s "
+        "OR s.makespan_bound_s > instance_bound.makespan_bound_s)",
         "UPDATE main.finding SET minimal = s.minimal, robots = s.robots, cells = s.cells "
         "FROM shard.finding AS s WHERE s.target = finding.target AND s.signature = finding.signature "
         "AND length(s.minimal) < length(finding.minimal)",

@@ -18,7 +18,9 @@ constexpr std::string_view kReadingProperties = "reading property runs";
 Result<Done> forget_crash(sqlite::Connection& connection, const PropertyRun& run) {
   if (run.status == "crashed") return Done{};
   for (const char* sql :
-       {"DELETE FROM property_run WHERE run_id = (SELECT id FROM run WHERE uuid = ? AND outcome = 'crashed')",
+       {"DELETE FROM property_class WHERE property_run_id = (SELECT property_run.id FROM property_run "
+        "JOIN run ON run.id = run_id WHERE uuid = ? AND outcome = 'crashed')",
+        "DELETE FROM property_run WHERE run_id = (SELECT id FROM run WHERE uuid = ? AND outcome = 'crashed')",
         "DELETE FROM run WHERE uuid = ? AND outcome = 'crashed'"}) {
     SIPPLAB_TRY(sqlite::run(connection, sql, "replacing a property run", run.uuid));
   }

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "db/identity.hpp"
 #include "db/queries.hpp"
@@ -331,10 +334,12 @@ Result<Done> RunRecorder::write_bounds(std::int64_t case_id, const std::vector<B
       "ON CONFLICT DO UPDATE SET flowtime_bound_s = max(flowtime_bound_s, excluded.flowtime_bound_s), "
       "makespan_bound_s = max(makespan_bound_s, excluded.makespan_bound_s)",
       "writing lower bounds"));
-  std::string last;  // repetitions follow each other
+  using Bound = std::tuple<std::string_view, double, double>;
+  Bound last;  // repetitions follow each other, mostly with the same bounds
   for (const auto& [instance, row] : results) {
-    if (!row.flowtime_bound_s || !row.makespan_bound_s || instance.content_hash == last) continue;
-    last = instance.content_hash;
+    if (!row.flowtime_bound_s || !row.makespan_bound_s) continue;
+    const Bound bound{instance.content_hash, *row.flowtime_bound_s, *row.makespan_bound_s};
+    if (std::exchange(last, bound) == bound) continue;
     SIPPLAB_TRY(
         insert.bind(case_id, instance.content_hash, row.flowtime_bound_s, row.makespan_bound_s).run());
   }

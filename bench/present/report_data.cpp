@@ -23,7 +23,7 @@ constexpr const char* kProperties =
 constexpr const char* kFuzzRuns =
     "SELECT target, status, max(started_utc) AS started_utc, executions, executions_per_s, edges, "
     "corpus_files "
-    "FROM v_fuzz_runs GROUP BY target ORDER BY target";
+    "FROM v_fuzz_runs WHERE excluded_reason IS NULL GROUP BY target ORDER BY target";
 constexpr const char* kFindings =
     "SELECT id, target, state, kind, claim, message, first_utc, last_utc, times_found FROM v_findings "
     "ORDER BY state = 'fixed', last_utc DESC LIMIT 101";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -146,15 +147,41 @@ class Expansion {
           instances.environment,  instances.map_spec,          instances.name, instances.robots,
           instances.radius_cells, instances.speed_cells_per_s, options,        set,
           request_.command};
-      std::string name = case_name(parameters, seeds > 1);
-      if (names_.insert(name).second) sweep_.cases.push_back({std::move(name), std::move(parameters)});
+      const std::string name = case_name(parameters, seeds > 1);
+      add_case(name, std::move(parameters));
     }
+  }
+
+  /// Names leave out limits and how instances were made: cases that differ in these alone are told apart by
+  /// them. One that is there already is left out.
+  void add_case(std::string name, SweepCase parameters) {
+    std::vector<std::size_t>& namesakes = namesakes_[name];
+    const db::CaseInfo row = case_row(parameters);
+    for (const std::size_t other : namesakes) {
+      if (case_row(sweep_.cases[other].parameters) == row) return;
+    }
+    namesakes.push_back(sweep_.cases.size());
+    if (namesakes.size() > 1) name += what_differs(sweep_.cases[namesakes.front()].parameters, parameters);
+    sweep_.cases.push_back({std::move(name), std::move(parameters)});
+  }
+
+  /// "/time-limit:2": those of its limits and instances that are not as those of the first of that name.
+  static std::string what_differs(const SweepCase& first, const SweepCase& parameters) {
+    std::string words;
+    for (const Option& option : option_rows()) {
+      const std::string text = option.get(parameters.options);
+      if (option.group == OptionGroup::kLimits && text != option.get(first.options))
+        words += std::string("/") + option.name + ":" + text;
+    }
+    if (parameters.instance_set != first.instance_set) words += "/" + parameters.instance_set;
+    std::replace(words.begin(), words.end(), ' ', '/');
+    return words;
   }
 
   const SweepRequest& request_;
   ExpandedSweep sweep_;
-  std::set<std::string> names_;
-  std::vector<std::pair<std::string, Bodies>> generated_;  ///< map and robots of each generated set
+  std::map<std::string, std::vector<std::size_t>> namesakes_;  ///< cases by what case_name() says
+  std::vector<std::pair<std::string, Bodies>> generated_;      ///< map and robots of each generated set
   std::vector<std::pair<std::filesystem::path, std::size_t>> archived_;
 };
 

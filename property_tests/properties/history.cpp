@@ -13,6 +13,7 @@
 #include "db/summaries.hpp"
 #include "db/tests/plain_case.hpp"
 #include "property_tests/support/encounters.hpp"
+#include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
 #include "property_tests/support/texts.hpp"
@@ -23,12 +24,6 @@ namespace {
 /// Checking all of a file takes longer the more runs there are in it.
 constexpr int kThoroughOneIn = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <class T>
-T must(Result<T> result) {
-  if (!result) RC_FAIL(result.error().message);
-  return std::move(*result);
-}
 
 // --- rows ---------------------------------------------------------------------------
 

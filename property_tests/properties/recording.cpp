@@ -18,41 +18,14 @@
 #include "db/sqlite/statement.hpp"
 #include "db/statistics/statistics.hpp"
 #include "db/tests/plain_case.hpp"
-#include "property_tests/support/encounters.hpp"
+#include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
-#include "property_tests/support/scratch_folder.hpp"
 #include "property_tests/support/texts.hpp"
 
 namespace sipplab::db {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class T>
-T must(Result<T> result) {
-  if (!result) RC_FAIL(result.error().message);
-  return std::move(*result);
-}
-
-std::int64_t ask(Database& database, const std::string& sql) {
-  return must(database.connection().query_int(sql, "asking"));
-}
-
-/// A folder with an empty history in it: a copy, since making one takes longer than most
-/// of what is done to it here.
-class NewHistory {
- public:
-  NewHistory() {
-    static const ScratchFolder kPattern;
-    static const fs::path kEmpty = kPattern.path() / "history.db";
-    if (!fs::exists(kEmpty)) must(Database::open(kEmpty));
-    fs::copy_file(kEmpty, path());
-  }
-  fs::path path() const { return folder_.path() / "history.db"; }
-
- private:
-  ScratchFolder folder_;
-};
 
 CaseInfo the_case(int number) {
   CaseInfo info = test::plain_case();
@@ -154,6 +127,10 @@ void ends_as_if_never_interrupted() {
   RC_ASSERT(must(find_earlier_run(database, the_run("smoke")))->status == RunStatus::kFinished);
   RC_ASSERT(ask(database, "SELECT count(*) FROM run") == 1);
   RC_ASSERT(ask(database, "SELECT count(*) FROM attempt") == sessions);
+  // Whatever ended them, all attempts but the last are known to be over before the end.
+  RC_ASSERT(ask(database, "SELECT count(*) FROM attempt WHERE status = 'finished'") == 1);
+  RC_ASSERT(ask(database, "SELECT count(*) FROM attempt WHERE status = 'aborted'") == sessions - 1);
+  RC_ASSERT(ask(database, "SELECT count(*) FROM result WHERE attempt_id IS NULL") == 0);
   RC_ASSERT(ask(database, "SELECT count(*) FROM v_results") == cases * instances);
   RC_ASSERT(ask(database,
                 "SELECT count(*) FROM cell WHERE result_count <> (SELECT count(*) FROM result "
@@ -186,6 +163,51 @@ void resumes_only_its_like() {
     must(exclude_run(database, "latest", "noise"));
   }
   RC_ASSERT(!must(find_earlier_run(database, info)).has_value());
+}
+
+/// Of several the newest that is not finished, else the newest; of one that was asked for, that one.
+void resumes_the_newest_unfinished() {
+  const NewHistory history;
+  struct Run {
+    std::string uuid;
+    bool finished, excluded, merged;
+  };
+  std::vector<Run> runs;
+  for (auto left = any_whole(0, 4); left > 0; --left) {
+    RunRecorder recorder = must(RunRecorder::begin(history.open(), the_run("smoke")));
+    Run run{recorder.run_uuid(), any_flag(), any_whole(0, 3) == 0, any_whole(0, 3) == 0};
+    add_planning(recorder, 1, 0);
+    must(recorder.commit());
+    must(recorder.finish(run.finished ? RunStatus::kFinished : RunStatus::kAborted));
+    Database database = history.open();
+    if (run.excluded) must(exclude_run(database, run.uuid, "noise"));
+    if (run.merged)
+      must(database.connection().execute("UPDATE run SET origin = 'other.db' WHERE uuid = '" + run.uuid + "'",
+                                         "merging"));
+    runs.push_back(run);
+  }
+  std::optional<Run> expected;
+  for (const Run& run : runs) {
+    if (run.excluded || run.merged) continue;
+    if (!expected || !run.finished || expected->finished) expected = run;
+  }
+  Database database = history.open();
+  const auto found = must(find_earlier_run(database, the_run("smoke")));
+  RC_ASSERT(found.has_value() == expected.has_value());
+  if (found) {
+    RC_ASSERT(found->uuid == expected->uuid);
+    RC_ASSERT(found->status == (expected->finished ? RunStatus::kFinished : RunStatus::kAborted));
+    RC_ASSERT(found->results == 1);
+    RC_ASSERT(!found->being_written);
+    RC_ASSERT(found->has_shard);
+    RunInfo other = the_run("smoke");
+    other.shard = "2/3";
+    RC_ASSERT(!must(find_earlier_run(database, other))->has_shard);
+  }
+  for (const Run& run : runs)
+    RC_ASSERT(must(find_earlier_run(database, the_run("smoke"), run.uuid))->uuid == run.uuid);
+  for (const Run& run : runs)
+    RC_ASSERT(!find_earlier_run(database, the_run("density"), run.uuid).has_value());
 }
 
 void has_one_writer() {
@@ -368,6 +390,7 @@ int main() {
   passed &= property("a run that is resumed any number of times ends as if it was never interrupted",
                      ends_as_if_never_interrupted);
   passed &= property("a run is resumed by its like only, and not once it is excluded", resumes_only_its_like);
+  passed &= property("the newest run that is not finished is resumed first", resumes_the_newest_unfinished);
   passed &= property("a run that another process took over is not written to", has_one_writer);
   passed &= property("a batch is recorded whole or not at all", writes_batches_whole);
   passed &= property("what is known of a commit's place in history is not forgotten", known_counts_stay);

@@ -91,21 +91,17 @@ class Tally : public rc::detail::TestListenerAdapter {
   std::optional<PlanCase> failing_case_;
 };
 
-/// RC_PARAMS, and the project's own values for what it leaves open. All properties of a
-/// program try as many cases.
-const rc::detail::Configuration& configured(int cases) {
-  static const rc::detail::Configuration configuration = [&] {
-    auto defaults = rc::detail::configFromString(SIPPLAB_PROPERTY_PARAMS);
-    defaults.testParams.maxSuccess = cases;
-    const char* params = std::getenv("RC_PARAMS");
-    try {
-      return rc::detail::configFromString(params == nullptr ? "" : params, defaults);
-    } catch (const rc::detail::ConfigurationException& error) {
-      std::cerr << "RC_PARAMS: " << error.what() << ", expected such as \"seed=7 max_success=100\"\n";
-      std::exit(2);
-    }
-  }();
-  return configuration;
+/// RC_PARAMS, and the project's own values for what it leaves open.
+rc::detail::Configuration configured(int cases) {
+  auto defaults = rc::detail::configFromString(SIPPLAB_PROPERTY_PARAMS);
+  defaults.testParams.maxSuccess = cases;
+  const char* params = std::getenv("RC_PARAMS");
+  try {
+    return rc::detail::configFromString(params == nullptr ? "" : params, defaults);
+  } catch (const rc::detail::ConfigurationException& error) {
+    std::cerr << "RC_PARAMS: " << error.what() << ", expected such as \"seed=7 max_success=100\"\n";
+    std::exit(2);
+  }
 }
 
 std::string reproduce_text(const std::string& title, const Reproduce& reproduce) {
@@ -203,7 +199,7 @@ void note_case(const PlanCase& plan_case) { noted_case = plan_case; }
 
 bool run_property(const std::string& room, int cases, const std::string& title,
                   const rc::detail::Property& property) {
-  const rc::detail::Configuration& configuration = configured(cases);
+  const rc::detail::Configuration configuration = configured(cases);
   const auto reproduce = configuration.reproduce.find(title);
   if (!configuration.reproduce.empty()) {
     [[maybe_unused]] static const int registered = std::atexit(end_where_none_was_met);

@@ -33,8 +33,8 @@ bool run_property(const std::string& room, int cases, const std::string& title,
 /// nothing is drawn or logged, and properties that it does not name hold. A program that has
 /// none of those that are named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
 template <class Testable>
-bool property(const std::string& title, Testable&& testable) {
-  return run_property(SIPPLAB_PROPERTY_ROOM, SIPPLAB_PROPERTY_CASES, title,
+bool property(const std::string& title, Testable&& testable, int cases = SIPPLAB_PROPERTY_CASES) {
+  return run_property(SIPPLAB_PROPERTY_ROOM, cases, title,
                       rc::detail::toProperty(std::forward<Testable>(testable)));
 }
 

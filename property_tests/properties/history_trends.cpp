@@ -1,0 +1,628 @@
+// The history of a metric: which runs are one version, where it stands among the others, and where the level
+// changed. Histories of commits are drawn with merges, equal dates and clocks that go wrong.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bench/present/trend_text.hpp"
+#include "db/measurements.hpp"
+#include "db/run_names.hpp"
+#include "db/statistics/change_points.hpp"
+#include "db/statistics/statistics.hpp"
+#include "db/trends.hpp"
+#include "property_tests/support/histories.hpp"
+#include "property_tests/support/property.hpp"
+
+namespace sipplab::db {
+namespace {
+
+constexpr int kManyRuns = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+/// A commit for each number; parents have smaller numbers.
+struct Graph {
+  std::vector<std::vector<int>> parents;
+  std::vector<int> dates;  ///< seconds, which may be equal or wrong
+
+  /// Itself and all that it descends from.
+  std::set<int> ancestors(int commit) const {
+    std::set<int> found = {commit};
+    std::vector<int> ahead = {commit};
+    while (!ahead.empty()) {
+      const int next = ahead.back();
+      ahead.pop_back();
+      for (const int parent : parents[static_cast<std::size_t>(next)]) {
+        if (found.insert(parent).second) ahead.push_back(parent);
+      }
+    }
+    return found;
+  }
+  std::int64_t on_first_parents(int commit) const {
+    std::int64_t count = 1;
+    while (!parents[static_cast<std::size_t>(commit)].empty()) {
+      commit = parents[static_cast<std::size_t>(commit)].front();
+      ++count;
+    }
+    return count;
+  }
+};
+
+Graph any_graph(bool linear) {
+  Graph graph;
+  const auto commits = static_cast<int>(any_whole(1, 8));
+  for (int commit = 0; commit < commits; ++commit) {
+    std::vector<int> parents;
+    if (commit > 0) parents.push_back(linear ? commit - 1 : static_cast<int>(any_whole(0, commit - 1)));
+    if (commit > 1 && !linear && any_whole(0, 2) == 0) {
+      const auto other = static_cast<int>(any_whole(0, commit - 1));
+      if (other != parents[0]) parents.push_back(other);
+    }
+    graph.parents.push_back(parents);
+    // In a line the clock goes right, though commits may share a second.
+    const int before = linear && commit > 0 ? graph.dates.back() : 0;
+    graph.dates.push_back(linear ? before + static_cast<int>(any_whole(0, 1))
+                                 : static_cast<int>(any_whole(0, 3)));
+  }
+  return graph;
+}
+
+/// Hashes sort by another order than numbers.
+std::string hash_of(int commit) {
+  return std::string(39, 'b') + static_cast<char>('0' + (commit * 5 + 3) % 8);
+}
+
+CommitInfo info_of(const Graph& graph, int commit) {
+  CommitInfo info;
+  info.hash = hash_of(commit);
+  info.committed_utc = second_number(graph.dates[static_cast<std::size_t>(commit)]);
+  info.subject = "commit " + std::to_string(commit);
+  const std::vector<int>& parents = graph.parents[static_cast<std::size_t>(commit)];
+  if (!parents.empty()) info.first_parent = hash_of(parents[0]);
+  for (std::size_t i = 1; i < parents.size(); ++i) info.later_parents.push_back(hash_of(parents[i]));
+  info.ancestor_count = static_cast<std::int64_t>(graph.ancestors(commit).size());
+  info.first_parent_count = graph.on_first_parents(commit);
+  return info;
+}
+
+Sweep run_of(const std::optional<CommitInfo>& commit, std::int64_t milliseconds) {
+  Sweep sweep;
+  sweep.info.uuid = new_uuid();
+  sweep.info.suite = "smoke";
+  sweep.info.branch = "main";
+  sweep.info.commit = commit;
+  sweep.info.machine = machine_number(1);
+  sweep.info.build = build_number(1);
+  Planned planned{case_number(0), instance_number(0), {}};
+  planned.row.status = ResultStatus::kSolved;
+  planned.row.valid = true;
+  planned.row.makespan_s = 1;
+  planned.row.flowtime_s = 1;
+  planned.row.planning_time_ns = milliseconds * kMillisecond;
+  sweep.plannings.push_back(planned);
+  return sweep;
+}
+
+std::vector<TrendSeries> trend(Database& database, const char* metric = "max-runtime") {
+  TrendQuery query;
+  query.metric = find_trend_metric(metric);
+  return must(read_trend(database, query));
+}
+
+std::vector<std::size_t> any_order(std::size_t size) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < size; ++i)
+    order.insert(order.begin() + any_whole(0, static_cast<std::int64_t>(i)), i);
+  return order;
+}
+
+/// Recorded in any order, no commit stands before one that it descends from.
+void versions_are_in_topological_order() {
+  const Graph graph = any_graph(false);
+  const NewHistory history;
+  std::set<int> measured;
+  for (const std::size_t commit : any_order(graph.parents.size())) {
+    if (any_whole(0, 4) == 0) continue;
+    const auto number = static_cast<int>(commit);
+    record(history.path(), run_of(info_of(graph, number), 1 + number));
+    measured.insert(number);
+  }
+  Database database = history.open();
+  const auto series = trend(database);
+  RC_ASSERT(series.size() == (measured.empty() ? 0U : 1U));
+  if (measured.empty()) return;
+  std::vector<int> order;
+  for (const TrendPoint& point : series[0].points) {
+    const int commit = std::stoi(point.subject.substr(7));
+    RC_ASSERT(point.commit == hash_of(commit));
+    RC_ASSERT(point.committed_utc == info_of(graph, commit).committed_utc);
+    RC_ASSERT(point.ancestor_count == info_of(graph, commit).ancestor_count);
+    RC_ASSERT(std::abs(point.value - (1 + commit) / 1000.0) < 1e-9);
+    RC_ASSERT(point.runs == 1);
+    RC_ASSERT(!point.dirty);
+    order.push_back(commit);
+  }
+  RC_ASSERT(std::set<int>(order.begin(), order.end()) == measured);
+  RC_ASSERT(order.size() == measured.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j)
+      RC_ASSERT(graph.ancestors(order[i]).count(order[j]) == 0U);
+  }
+  // Of two with as many ancestors the earlier one, then the one whose hash is less.
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const CommitInfo a = info_of(graph, order[i]);
+    const CommitInfo b = info_of(graph, order[i + 1]);
+    RC_ASSERT(std::tie(a.ancestor_count, a.committed_utc, a.hash) <
+              std::tie(b.ancestor_count, b.committed_utc, b.hash));
+  }
+  // The commands that list commits go by the same.
+  const Table listed = rows_of(
+      database,
+      "SELECT commit_hash, parents FROM v_commits ORDER BY ancestor_count, committed_utc, commit_hash");
+  RC_ASSERT(listed.rows.size() == order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    RC_ASSERT(std::get<std::string>(listed.rows[i][0]) == hash_of(order[i]));
+    std::string parents;
+    for (const int parent : graph.parents[static_cast<std::size_t>(order[i])])
+      parents += (parents.empty() ? "" : " ") + hash_of(parent);
+    RC_ASSERT(listed.rows[i][1] == (parents.empty() ? Value{Null{}} : Value{parents}));
+  }
+  RC_CLASSIFY(std::any_of(graph.parents.begin(), graph.parents.end(),
+                          [](const auto& parents) { return parents.size() > 1; }),
+              "with a merge");
+}
+
+/// Of a line of commits some were recorded in a shallow clone: dates tell their place.
+void shallow_clones_go_by_dates() {
+  const Graph graph = any_graph(true);
+  const NewHistory history;
+  bool shallow = false;
+  for (const std::size_t commit : any_order(graph.parents.size())) {
+    CommitInfo info = info_of(graph, static_cast<int>(commit));
+    if (any_flag()) {
+      info.ancestor_count = info.first_parent_count = 0;
+      shallow = true;
+    }
+    record(history.path(), run_of(info, 1));
+  }
+  Database database = history.open();
+  const auto series = trend(database);
+  RC_ASSERT(series[0].points.size() == graph.parents.size());
+  for (std::size_t i = 0; i + 1 < series[0].points.size(); ++i) {
+    RC_ASSERT(series[0].points[i].committed_utc <= series[0].points[i + 1].committed_utc);
+    RC_ASSERT(series[0].points[i].ancestor_count <= series[0].points[i + 1].ancestor_count);
+  }
+  RC_CLASSIFY(shallow, "some shallow");
+}
+
+/// Runs of one commit are one point, of uncommitted changes one for each program, and so without a commit.
+void a_version_is_the_median_of_its_runs() {
+  const Graph graph = any_graph(true);
+  const NewHistory history;
+  std::map<std::tuple<std::string, bool, std::string>, std::vector<double>> versions;
+  for (auto left = any_whole(1, 7); left > 0; --left) {
+    const auto number = static_cast<int>(any_whole(0, static_cast<std::int64_t>(graph.parents.size()) - 1));
+    const bool has_commit = any_whole(0, 4) > 0;
+    const auto milliseconds = any_whole(1, 20);
+    Sweep sweep = run_of(has_commit ? std::optional(info_of(graph, number)) : std::nullopt, milliseconds);
+    sweep.info.build.dirty = any_whole(0, 2) == 0;
+    sweep.info.build.binary_hash = any_flag() ? "one" : "other";
+    const BuildInfo& build = sweep.info.build;
+    versions[{has_commit ? hash_of(number) : "", build.dirty,
+              build.dirty || !has_commit ? build.binary_hash : ""}]
+        .push_back(static_cast<double>(milliseconds) / 1000);
+    record(history.path(), sweep);
+  }
+  Database database = history.open();
+  const auto series = trend(database);
+  RC_ASSERT(series.size() == 1U);
+  RC_ASSERT(series[0].points.size() == versions.size());
+  std::multiset<std::tuple<std::string, bool, std::int64_t, std::int64_t>> expected;
+  std::multiset<std::tuple<std::string, bool, std::int64_t, std::int64_t>> found;
+  for (auto& [version, values] : versions) {
+    std::sort(values.begin(), values.end());
+    const double median = (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
+    expected.emplace(std::get<0>(version), std::get<1>(version), static_cast<std::int64_t>(values.size()),
+                     std::llround(median * 1e6));
+  }
+  for (const TrendPoint& point : series[0].points)
+    found.emplace(point.commit, point.dirty, point.runs, std::llround(point.value * 1e6));
+  RC_ASSERT(found == expected);
+}
+
+/// What is asked for by suite, branch and machine.
+void questions_are_narrowed() {
+  const NewHistory history;
+  struct Run {
+    std::string suite, branch;
+    int machine;
+    std::int64_t number;
+  };
+  std::vector<Run> runs;
+  const auto count = any_whole(1, 6);
+  for (std::int64_t i = 0; i < count; ++i) {
+    Run run{any_flag() ? "smoke" : "density", any_flag() ? "main" : "topic",
+            static_cast<int>(any_whole(1, 2)), i + 1};
+    Sweep sweep = run_of(commit_number(static_cast<int>(i) % 3 + 1), run.number);
+    sweep.info.suite = run.suite;
+    sweep.info.branch = run.branch;
+    sweep.info.machine = machine_number(run.machine);
+    record(history.path(), sweep);
+    runs.push_back(std::move(run));
+  }
+  Database database = history.open();
+  TrendQuery query;
+  query.metric = find_trend_metric("tries");
+  if (any_flag()) query.suite = any_flag() ? "smoke" : "density";
+  if (any_flag()) query.branch = any_flag() ? "main" : "topic";
+  const auto machine = static_cast<int>(any_whole(0, 2));
+  const std::string print = machine > 0 ? fingerprint(machine_number(machine)) : "";
+  if (machine > 0)
+    query.machine = any_flag() ? machine_number(machine).host
+                               : print.substr(0, static_cast<std::size_t>(any_whole(8, 16)));
+  std::int64_t expected = 0;
+  for (const Run& run : runs) {
+    expected += run.suite == query.suite.value_or(run.suite) &&
+                        run.branch == query.branch.value_or(run.branch) &&
+                        (machine == 0 || run.machine == machine)
+                    ? 1
+                    : 0;
+  }
+  std::int64_t found = 0;
+  for (const TrendSeries& one : must(read_trend(database, query))) {
+    for (const TrendPoint& point : one.points) found += point.runs;
+  }
+  RC_ASSERT(found == expected);
+}
+
+/// Where a case was planned on several sets of instances, each set has its own series.
+void sets_of_instances_stay_apart() {
+  const NewHistory history;
+  std::map<std::set<int>, std::int64_t> sets;
+  for (auto left = any_whole(1, 5); left > 0; --left) {
+    std::set<int> instances;
+    for (int instance = 0; instance < 3; ++instance) {
+      if (any_flag()) instances.insert(instance);
+    }
+    if (instances.empty()) continue;
+    Sweep sweep = run_of(commit_number(static_cast<int>(any_whole(1, 3))), 1);
+    const Planned planned = sweep.plannings.front();
+    sweep.plannings.clear();
+    for (const int instance : instances) {
+      for (std::int64_t repetition = 0; repetition < 2; ++repetition) {
+        sweep.plannings.push_back(planned);
+        sweep.plannings.back().instance = instance_number(instance);
+        sweep.plannings.back().row.position = instance;
+        sweep.plannings.back().row.repetition = repetition;
+      }
+    }
+    record(history.path(), sweep);
+    ++sets[instances];
+  }
+  Database database = history.open();
+  const auto series = trend(database, "tries");
+  RC_ASSERT(series.size() == sets.size());
+  std::set<std::string> names;
+  std::multiset<std::pair<std::size_t, std::int64_t>> expected;
+  std::multiset<std::pair<std::size_t, std::int64_t>> found;
+  for (const auto& [instances, runs] : sets) expected.emplace(instances.size(), runs);
+  for (const TrendSeries& one : series) {
+    RC_ASSERT(one.instances.empty() == (sets.size() == 1));
+    RC_ASSERT(names.insert(one.instances).second);
+    std::int64_t runs = 0;
+    for (const TrendPoint& point : one.points) runs += point.runs;
+    const std::size_t size = sets.size() == 1 ? sets.begin()->first.size() : std::stoul(one.instances);
+    found.emplace(size, runs);
+    if (sets.size() > 1) RC_ASSERT((one.instances.find(" instances") == std::string::npos) == (size == 1));
+  }
+  RC_ASSERT(found == expected);
+}
+
+// --- metrics ------------------------------------------------------------------------
+
+/// What a metric is of the rows of one run.
+std::map<std::string, std::optional<double>> values_of(const std::vector<ResultRow>& rows, double limit_s) {
+  std::map<std::string, std::optional<double>> values;
+  const auto mean = [&rows](const auto& value, bool solved_only) -> std::optional<double> {
+    double sum = 0;
+    double count = 0;
+    for (const ResultRow& row : rows) {
+      if (solved_only && row.status != ResultStatus::kSolved) continue;
+      sum += value(row);
+      ++count;
+    }
+    return count == 0 ? std::nullopt : std::optional(sum / count);
+  };
+  const auto seconds = [](const ResultRow& row) { return static_cast<double>(row.planning_time_ns) / 1e9; };
+  const auto solves = [](const ResultRow& row) { return row.status == ResultStatus::kSolved; };
+  std::vector<double> times;
+  double longest = 0;
+  for (const ResultRow& row : rows) {
+    times.push_back(solves(row) ? seconds(row) : std::numeric_limits<double>::infinity());
+    longest = std::max(longest, seconds(row));
+  }
+  std::sort(times.begin(), times.end());
+  const double middle = (times[times.size() / 2] + times[(times.size() - 1) / 2]) / 2;
+  values["success"] = mean([&](const ResultRow& row) { return solves(row) ? 1.0 : 0.0; }, false);
+  if (std::isfinite(middle)) values["runtime"] = middle;
+  values["mean-runtime"] = mean(seconds, true);
+  values["max-runtime"] = longest;
+  const auto par2 =
+      mean([&](const ResultRow& row) { return solves(row) ? seconds(row) : 2 * limit_s; }, false);
+  if (std::isfinite(*par2)) values["par2"] = par2;
+  values["makespan"] = mean([](const ResultRow& row) { return *row.makespan_s; }, true);
+  values["flowtime"] = mean([](const ResultRow& row) { return *row.flowtime_s; }, true);
+  values["tries"] = mean([](const ResultRow& row) { return static_cast<double>(row.tries); }, false);
+  values["expansions"] =
+      mean([](const ResultRow& row) { return static_cast<double>(row.expansions); }, false);
+  values["generations"] =
+      mean([](const ResultRow& row) { return static_cast<double>(row.generations); }, false);
+  return values;
+}
+
+void metrics_are_what_they_are_called() {
+  const NewHistory history;
+  Sweep sweep = run_of(commit_number(1), 1);
+  sweep.plannings.clear();
+  std::vector<ResultRow> rows;
+  const CaseInfo parameters = case_number(any_flag() ? 2 : 0);
+  for (auto left = any_whole(1, 5); left > 0; --left) {
+    Planned planned{parameters, instance_number(0), any_result()};
+    planned.row.position = left;
+    rows.push_back(planned.row);
+    sweep.plannings.push_back(planned);
+  }
+  record(history.path(), sweep);
+  Database database = history.open();
+  auto expected = values_of(rows, parameters.real("time_limit_s"));
+  for (const TrendMetric& metric : trend_metrics()) {
+    if (!metric.of_case) continue;
+    RC_LOG() << metric.name << '\n';
+    const auto series = trend(database, std::string(metric.name).c_str());
+    const auto& value = expected[std::string(metric.name)];
+    RC_ASSERT(series.size() == (value ? 1U : 0U));
+    if (value) RC_ASSERT(std::abs(series[0].points.at(0).value - *value) < 1e-9);
+  }
+}
+
+/// Of campaigns, properties and imported reports: each number from its own runs, in its unit.
+void other_metrics_are_what_they_are_called() {
+  const NewHistory history;
+  Database database = history.open();
+  std::map<std::string, std::multiset<std::int64_t>> expected;  // in millionths
+  const auto millionths = [](double value) { return std::llround(value * 1e6); };
+  std::map<std::string, std::pair<double, double>> properties;  // cases, and failures by runs, of each commit
+  std::map<std::string, double> property_runs;
+  for (auto left = any_whole(0, 4); left > 0; --left) {
+    const PropertyRun run = any_property_run();
+    const RunOrigin origin = any_origin();
+    const bool planted = any_whole(0, 2) == 0;
+    must(record_property_runs(database, origin, {run}, planted ? "a-mutant" : ""));
+    if (planted || !origin.commit) continue;
+    auto& [cases, failures] = properties[origin.commit->hash];
+    cases += static_cast<double>(run.cases);
+    failures += run.status == "passed" ? 0 : 1;
+    ++property_runs[origin.commit->hash];
+  }
+  for (const auto& [hash, sums] : properties) {
+    expected["property-cases"].insert(millionths(sums.first));
+    expected["property-failures"].insert(millionths(sums.second / property_runs[hash]));
+  }
+  for (auto left = any_whole(0, 2); left > 0; --left) {
+    FuzzRun run = any_fuzz_run();
+    run.target = "target " + std::to_string(left);  // a series of its own
+    must(record_fuzz_run(database, any_origin(), run));
+    expected["fuzz-edges"].insert(millionths(static_cast<double>(run.edges)));
+    if (run.wall_time_ns > 0)
+      expected["fuzz-speed"].insert(
+          millionths(static_cast<double>(run.executions) / (static_cast<double>(run.wall_time_ns) / 1e9)));
+  }
+  if (any_flag()) {
+    MeasurementRun report = any_report();
+    std::map<std::string, std::vector<double>> times;
+    for (const Measurement& one : report.measurements) {
+      if (one.real_time_ns) times[one.benchmark].push_back(*one.real_time_ns / 1e9);
+    }
+    for (const auto& [benchmark, seconds] : times) {
+      const double median = seconds.size() == 1 ? seconds[0] : (seconds[0] + seconds[1]) / 2;
+      expected["benchmark-time"].insert(std::llround(median * 1e12));
+    }
+    must(record_measurements(database, report));
+  }
+  for (const TrendMetric& metric : trend_metrics()) {
+    if (metric.of_case || metric.name == "fuzz-coverage") continue;
+    std::multiset<std::int64_t> found;
+    for (const TrendSeries& one : trend(database, std::string(metric.name).c_str())) {
+      for (const TrendPoint& point : one.points)
+        found.insert(metric.name == "benchmark-time" ? std::llround(point.value * 1e12)
+                                                     : millionths(point.value));
+    }
+    RC_LOG() << metric.name << '\n';
+    RC_ASSERT(found == expected[std::string(metric.name)]);
+  }
+}
+
+// --- changes of level ---------------------------------------------------------------
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
+}
+
+/// Series as they come, with steps in some of them.
+std::vector<TrendSeries> any_series() {
+  std::vector<TrendSeries> series;
+  for (auto left = any_whole(1, 3); left > 0; --left) {
+    TrendSeries one;
+    one.case_id = left;
+    one.label = "case";
+    double level = static_cast<double>(any_whole(12, 40));
+    for (auto steps = any_whole(1, 3); steps > 0; --steps) {
+      for (auto points = any_whole(2, 7); points > 0; --points) {
+        TrendPoint point;
+        point.commit = commit_number(1).hash;
+        point.ancestor_count = static_cast<std::int64_t>(one.points.size());
+        point.value = (level + static_cast<double>(any_whole(0, 1)) / 4) / 40;
+        one.points.push_back(point);
+      }
+      level += static_cast<double>(any_whole(-1, 3)) * 2;
+    }
+    series.push_back(std::move(one));
+  }
+  return series;
+}
+
+void changes_are_certain_and_large_enough() {
+  std::vector<TrendSeries> series = any_series();
+  const TrendMetric& metric = *find_trend_metric(any_flag()   ? "success"
+                                                 : any_flag() ? "runtime"
+                                                              : "flowtime");
+  ChangeRules rules;
+  if (any_flag()) rules.min_effect = static_cast<double>(any_whole(0, 4)) / 16;
+  rules.false_discovery_rate = static_cast<double>(any_whole(1, 4)) / 40;
+  const double least = rules.min_effect.value_or(metric.min_effect);
+  // All tests of all series are judged together.
+  std::vector<std::pair<std::size_t, statistics::Division>> tests;
+  std::vector<double> p_values;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    std::vector<double> values;
+    for (const TrendPoint& point : series[i].points) values.push_back(point.value);
+    for (const auto& division : statistics::divide(values, rules.search)) {
+      tests.emplace_back(i, division);
+      p_values.push_back(division.p_value);
+    }
+  }
+  const std::vector<bool> stands = statistics::benjamini_hochberg(p_values, rules.false_discovery_rate);
+  mark_changes(series, metric, rules);
+  std::size_t marked = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    std::vector<std::pair<std::size_t, double>> kept;
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+      if (tests[k].first == i && stands[k] && tests[k].second.accepted)
+        kept.emplace_back(tests[k].second.position, tests[k].second.p_value);
+    }
+    const auto effect = [&](std::size_t k) {
+      const std::size_t begin = k == 0 ? 0 : kept[k - 1].first;
+      const std::size_t end = k + 1 == kept.size() ? series[i].points.size() : kept[k + 1].first;
+      std::vector<double> before;
+      std::vector<double> after;
+      for (std::size_t at = begin; at < end; ++at)
+        (at < kept[k].first ? before : after).push_back(series[i].points[at].value);
+      TrendChange change;
+      change.before = median_of(before);
+      change.after = median_of(after);
+      return change;
+    };
+    const auto size = [&](std::size_t k) {
+      const TrendChange change = effect(k);
+      if (metric.rate) return std::abs(change.after - change.before);
+      if (change.before == change.after) return 0.0;
+      return change.before == 0 ? std::numeric_limits<double>::infinity()
+                                : std::abs(change.after / change.before - 1);
+    };
+    for (;;) {  // the smallest goes first
+      std::optional<std::size_t> smallest;
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (size(k) < least && (!smallest || size(k) < size(*smallest))) smallest = k;
+      }
+      if (!smallest) break;
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(*smallest));
+    }
+    RC_ASSERT(series[i].changes.size() == kept.size());
+    marked += kept.size();
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const TrendChange& change = series[i].changes[k];
+      RC_ASSERT(change.position == kept[k].first);
+      RC_ASSERT(change.p_value == kept[k].second);
+      RC_ASSERT(change.before == effect(k).before);
+      RC_ASSERT(change.after == effect(k).after);
+    }
+  }
+  RC_CLASSIFY(marked > 0, "with changes");
+  RC_CLASSIFY(marked < tests.size(), "some dropped");
+
+  // What is printed of it as JSON.
+  const auto json = bench::trend_json(metric, series);
+  RC_ASSERT(json.at("metric") == metric.name);
+  RC_ASSERT(json.at("unit") == metric.unit);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const auto& said = json.at("series")[i];
+    RC_ASSERT(said.at("case_id") == series[i].case_id);
+    for (std::size_t k = 0; k < series[i].points.size(); ++k)
+      RC_ASSERT(said.at("points")[k].at("value") == series[i].points[k].value);
+    RC_ASSERT(said.at("changes").size() == series[i].changes.size());
+    for (std::size_t k = 0; k < series[i].changes.size(); ++k) {
+      const TrendChange& change = series[i].changes[k];
+      const auto& words = said.at("changes")[k];
+      RC_ASSERT(words.at("position") == change.position);
+      RC_ASSERT(words.at("before") == change.before);
+      RC_ASSERT(words.at("after") == change.after);
+      const bool better =
+          metric.higher_is_better ? change.after > change.before : change.after < change.before;
+      RC_ASSERT(words.at("better") == better);
+      const std::string text = bench::change_text(metric, change);
+      RC_ASSERT(text.find(better ? ", better)" : ", worse)") != std::string::npos);
+      if (change.after == change.before) continue;
+      const bool rises = text.find("(+") != std::string::npos || text.find("from 0") != std::string::npos;
+      RC_ASSERT(rises == (change.after > change.before));
+    }
+  }
+}
+
+/// A line of blocks: one for each value where there is room, else of as many neighbours for each; higher for
+/// more.
+void sparklines_rise_with_values() {
+  std::vector<double> values;
+  for (auto left = any_whole(0, 20); left > 0; --left)
+    values.push_back(static_cast<double>(any_whole(-8, 8)));
+  const auto width = static_cast<std::size_t>(any_whole(1, 24));
+  const std::string line = bench::sparkline(values, width);
+  constexpr std::size_t kBytes = 3;  // of each block in UTF-8
+  RC_ASSERT(line.size() == kBytes * std::min(width, values.size()));
+  if (values.size() > width) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      const int order = line.compare(kBytes * i, kBytes, line, kBytes * j, kBytes);
+      if (values[i] < values[j]) RC_ASSERT(order <= 0);
+      if (values[i] == values[j]) RC_ASSERT(order == 0);
+    }
+  }
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (values.empty() || *low == *high) return;
+  RC_ASSERT(line.substr(kBytes * static_cast<std::size_t>(low - values.begin()), kBytes) == "▁");
+  RC_ASSERT(line.substr(kBytes * static_cast<std::size_t>(high - values.begin()), kBytes) == "█");
+}
+
+}  // namespace
+}  // namespace sipplab::db
+
+int main() {
+  using namespace sipplab;
+  using namespace sipplab::db;
+  bool passed = true;
+
+  passed &= property("versions are in topological order, whatever merges and clocks say",
+                     versions_are_in_topological_order, kManyRuns);
+  passed &= property("where a shallow clone knows no counts, dates tell the place",
+                     shallow_clones_go_by_dates, kManyRuns);
+  passed &= property("a version is the median of its runs", a_version_is_the_median_of_its_runs, kManyRuns);
+  passed &= property("a trend is of the suite, branch and machine that are asked for", questions_are_narrowed,
+                     kManyRuns);
+  passed &= property("sets of instances have series of their own", sets_of_instances_stay_apart, kManyRuns);
+  passed &= property("a metric of a case is what it is called", metrics_are_what_they_are_called, kManyRuns);
+  passed &= property("metrics of properties, fuzzing and reports are what they are called",
+                     other_metrics_are_what_they_are_called, kManyRuns);
+  passed &= property("changes of level are certain among all series, and large enough",
+                     changes_are_certain_and_large_enough);
+  passed &= property("a sparkline rises with its values", sparklines_rise_with_values);
+
+  return passed ? 0 : 1;
+}
