@@ -79,7 +79,7 @@ void check_best(const PlanCase& plan_case) {
   fuzz::count(solved ? Event::kSolved : Event::kFailed);
   require(Claim::kResultIsWhole, solved == best.improvement.has_value(), "improved what is no plan");
   if (!solved) return;
-  check_valid(plan_case, best.plan.ssi_kept_s, *best.improvement);
+  check_valid(plan_case, best.ssi_kept_s(), *best.improvement);
   check_same(*best.improvement, *solve(plan_case.instance, options).improvement);
 }
 

@@ -94,7 +94,7 @@ int main() {
     if (!best.improvement) return;
     RC_ASSERT(best.improvement->order.has_value());
     assert_valid(plan_case.instance, best.improvement->solution,
-                 {best.plan.ssi_kept_s, *best.improvement->order});
+                 {best.ssi_kept_s(), *best.improvement->order});
     if (best.plan.made_by != Method::kComplete) RC_ASSERT(best.plan.ssi_kept_s == best.plan.ssi_s);
     const PlanCost before{flowtime_s(best.plan.solution), makespan_s(best.plan.solution)};
     RC_ASSERT(!is_better(Objective{}, before, best.improvement->log.curve.back().cost));
@@ -125,7 +125,9 @@ int main() {
                     "better than the method");
         // Steps before it may have used up the restarts that ejection would need.
         if (method.status == PlanStatus::kSolved) {
-          RC_ASSERT(best.plan.solution == method.solution);
+          const PlanCost cost{flowtime_s(method.solution), makespan_s(method.solution)};
+          RC_ASSERT(!is_better(Objective{}, cost, best.improvement->log.curve.back().cost));
+          if (best.plan.made_by != Method::kComplete) RC_ASSERT(best.plan.solution == method.solution);
         } else if (ejection.status == PlanStatus::kSolved && best.plan.tries() <= kRestarts) {
           RC_ASSERT(best.improvement.has_value());
         }

@@ -137,15 +137,17 @@ int main() {
     }
     RC_ASSERT(std::abs(best.plan.planning_seconds - seconds) <= 1e-9 * (1 + seconds));
     if (!best.improvement) return;
-    // With a first plan in hand, improvement has most of the time.
+    // With a first plan in hand, which may have taken its own share, improvement has most of the time.
     if (best.steps.front().kind == BestStep::Kind::kFallback &&
         best.steps.front().status == PlanStatus::kSolved) {
-      RC_ASSERT(ended_s <= kShareBeforeImprovement * options.time_limit_s + last_looks_s(options));
+      RC_ASSERT(ended_s <=
+                std::max(best.steps.front().ended_s, kShareBeforeImprovement * options.time_limit_s) +
+                    last_looks_s(options));
     }
     const ImprovementLog& log = best.improvement->log;
     const bool is_optimal = log.curve.back().cost.flowtime_s <= log.bound.flowtime_s &&
                             log.curve.back().cost.makespan_s <= log.bound.makespan_s;
-    RC_ASSERT(log.was_cut_short != is_optimal || plan_case.instance.agents.empty());
+    if (is_optimal) RC_ASSERT(!log.was_cut_short || plan_case.instance.agents.empty());
   });
 
   passed &= property("the best plan: the first plan has its share of the time and no more", [] {
@@ -177,10 +179,12 @@ int main() {
       result = solve(plan_case.instance, options);
     });
     RC_ASSERT(result.improvement.has_value());
-    RC_ASSERT(taken_s <= 2 * planning_s + options.improve->seconds + 2 * kLooksOfAPhaseS);
+    // Planning is one phase, to be timed twice; unit moves, the pass after them and the search are three.
+    RC_ASSERT(taken_s <= 2 * planning_s + options.improve->seconds + 5 * kLooksOfAPhaseS);
     RC_ASSERT(result.seconds() ==
               result.plan.planning_seconds + result.improvement->log.curve.back().seconds);
-    // The iterations that were counted are worth as much without a clock.
+    // The iterations that were counted are worth as much without a clock, if one stage had them all.
+    if (result.plan.ssi_kept_s == 0 || result.improvement->log.iterations == 0) return;
     PlannerOptions counted = options;
     counted.improve = ImproveBudget{};
     counted.improve->iterations = result.improvement->log.iterations;
@@ -299,6 +303,7 @@ int main() {
     const SolveResult none = solve(plan_case.instance, options);
     RC_PRE(none.improvement.has_value());
     std::uint64_t alone = 0;
+    PlanCost fastest;
     for (const Agent& agent : plan_case.instance.agents) {
       Instance one = plan_case.instance;
       one.agents = {agent};
@@ -306,7 +311,10 @@ int main() {
       unprotected.rescheduling = Rescheduling::kNone;
       unprotected.ssi_s = 0;
       unprotected.max_expansions = UINT64_MAX;
-      alone += plan(one, unprotected).statistics.expansions;
+      const PlanResult planned = plan(one, unprotected);
+      alone += planned.statistics.expansions;
+      fastest.flowtime_s += flowtime_s(planned.solution);
+      fastest.makespan_s = std::max(fastest.makespan_s, makespan_s(planned.solution));
     }
     RC_ASSERT(none.improvement->statistics.expansions == alone);
     RC_ASSERT(none.statistics().expansions == none.plan.statistics.expansions + alone);
@@ -316,9 +324,11 @@ int main() {
     RC_ASSERT(log.iterations <= options.improve->iterations);
     // Whatever makes the plan better moves, and that takes work.
     RC_ASSERT(some.improvement->statistics.expansions >= alone + log.improvements);
-    RC_ASSERT(log.curve.size() == log.improvements + 2);
-    const bool is_optimal = log.curve.back().cost.flowtime_s <= log.bound.flowtime_s &&
-                            log.curve.back().cost.makespan_s <= log.bound.makespan_s;
+    RC_ASSERT(log.curve.size() >= log.improvements + 2);  // the first and the last of each stage
+    // It ends where every robot is as fast as alone, but for rounding of sums.
+    const PlanCost& cost = log.curve.back().cost;
+    const bool is_optimal = cost.flowtime_s <= fastest.flowtime_s + 1e-9 &&
+                            cost.makespan_s <= fastest.makespan_s + 1e-9;
     RC_ASSERT(log.iterations == options.improve->iterations || is_optimal);
     RC_CLASSIFY(is_optimal, "optimal");
   });

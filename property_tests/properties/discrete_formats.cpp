@@ -308,8 +308,8 @@ int main() {
     const Steps steps = at_full_size([] { return make_steps(false); });
     RC_ASSERT(tracker_lines(steps.cells) == all_moves(steps, false));
     reads_back(steps, all_moves(steps, false), "tracker");
-    reads_back(steps, tracker_table(steps, false), "tracker-csv");
-    reads_back(steps, tracker_table(steps, true), "tracker-csv");
+    reads_back(steps, tracker_table(steps, false), "tracker");
+    reads_back(steps, tracker_table(steps, true), "tracker");
     if (!is_ambiguous_upside_down(steps)) reads_back(steps, all_moves(steps, true), "tracker");
     RC_CLASSIFY(is_ambiguous_upside_down(steps), "right both ways up");
   });
