@@ -327,8 +327,8 @@ int main() {
     RC_ASSERT(log.curve.size() >= log.improvements + 2);  // the first and the last of each stage
     // It ends where every robot is as fast as alone, but for rounding of sums.
     const PlanCost& cost = log.curve.back().cost;
-    const bool is_optimal = cost.flowtime_s <= fastest.flowtime_s + 1e-9 &&
-                            cost.makespan_s <= fastest.makespan_s + 1e-9;
+    const bool is_optimal =
+        cost.flowtime_s <= fastest.flowtime_s + 1e-9 && cost.makespan_s <= fastest.makespan_s + 1e-9;
     RC_ASSERT(log.iterations == options.improve->iterations || is_optimal);
     RC_CLASSIFY(is_optimal, "optimal");
   });
