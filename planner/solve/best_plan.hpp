@@ -25,8 +25,8 @@ SolveResult best_plan(const Instance& instance, const PlannerOptions& options);
 
 inline constexpr double kLongerSsiS[] = {9, 15};
 
-/// Share of the time limit for the first plan.
-inline constexpr double kShareOfFirstPlan = 0.5;
+/// Share of the time limit for the first plan: one that is given up has to begin again.
+inline constexpr double kShareOfFirstPlan = 0.8;
 /// Share of the time limit in which a better plan must have been found. The rest is for
 /// improvement, which a plan of LaCAM needs more than any other.
 inline constexpr double kShareBeforeImprovement = 0.15;

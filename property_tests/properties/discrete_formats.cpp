@@ -353,7 +353,7 @@ int main() {
         };
         for (std::size_t robot = 0; robot < steps.size(); ++robot) {
           RC_ASSERT(without_repeats(steps[robot]) == cells_of(stepped.solution.trajectories[robot]));
-          RC_ASSERT(steps[robot].size() == 1u || steps[robot].back() != *(steps[robot].end() - 2));
+          if (steps[robot].size() > 1) RC_ASSERT(steps[robot].back() != *(steps[robot].end() - 2));
           for (std::size_t step = 0; step < length; ++step) {
             for (std::size_t other = 0; other < robot; ++other) {
               RC_ASSERT(at(robot, step) != at(other, step));
