@@ -179,13 +179,6 @@ Files some_files(std::int64_t least, std::int64_t most) {
   return files;
 }
 
-std::vector<std::size_t> any_order(std::size_t size) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < size; ++i)
-    order.insert(order.begin() + any_whole(0, static_cast<std::int64_t>(i)), i);
-  return order;
-}
-
 // --- laws ---------------------------------------------------------------------------
 
 void order_and_repetition_change_nothing() {

@@ -117,13 +117,6 @@ std::vector<TrendSeries> trend(Database& database, const char* metric = "max-run
   return must(read_trend(database, query));
 }
 
-std::vector<std::size_t> any_order(std::size_t size) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < size; ++i)
-    order.insert(order.begin() + any_whole(0, static_cast<std::int64_t>(i)), i);
-  return order;
-}
-
 /// Recorded in any order, no commit stands before one that it descends from.
 void versions_are_in_topological_order() {
   const Graph graph = any_graph(false);

@@ -49,6 +49,13 @@ std::int64_t ask(Database& database, const std::string& sql) {
   return must(database.connection().query_int(sql, kAsking));
 }
 
+std::vector<std::size_t> any_order(std::size_t size) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < size; ++i)
+    order.insert(order.begin() + any_whole(0, static_cast<std::int64_t>(i)), i);
+  return order;
+}
+
 Table rows_of(Database& database, const std::string& sql) {
   return must(rest_of(must(sqlite::Statement::prepare(database.connection(), sql, kAsking))));
 }

@@ -31,6 +31,8 @@ T must(Result<T> result) {
 /// A number from least to most, at every size of rapidcheck.
 std::int64_t any_whole(std::int64_t least, std::int64_t most);
 bool any_flag();
+/// The numbers below `size`, shuffled.
+std::vector<std::size_t> any_order(std::size_t size);
 
 /// The first column of the first row.
 std::int64_t ask(Database& database, const std::string& sql);
