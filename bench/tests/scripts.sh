@@ -109,13 +109,16 @@ judge scripts/pull-request HEAD~1
 [ $? -eq 5 ] && ! grep -q -- --expect-changes "$LOG" || complain "pull-request: other plans that nobody expected"
 grep -q 'Plans: changed' build/pull-request/summary.md || complain 'pull-request does not say how other plans are expected'
 [ "$(head -n 1 build/pull-request/summary.md)" = '**VERDICT 5**' ] || complain 'the verdict is not the first line'
+# More than a pipe holds follows the line, which is the first that git writes.
+{ printf 'A long line\n\nPlans: ' && head -c 300000 /dev/zero | tr '\0' x; } >"$work/message"
+git -c user.name=t -c user.email=t@t commit -q --allow-empty -F "$work/message"
 git -c user.name=t -c user.email=t@t commit -q --allow-empty -m 'A note
 
 Plans: changed'
-judge scripts/pull-request HEAD~2
+judge scripts/pull-request HEAD~3
 grep -q -- --expect-changes "$LOG" || complain 'pull-request did not see the line of the commit'
 rm -f build/base/*/build/release/code # a build that is there is not made again
-: >"$LOG" && judge scripts/pull-request HEAD~2 --expect-changes
+: >"$LOG" && judge scripts/pull-request HEAD~3 --expect-changes
 grep -q -- --expect-changes "$LOG" || complain 'pull-request did not pass on what is expected'
 [ -z "$(find build/base -name code -path '*release*')" ] || complain 'the base was built twice'
 

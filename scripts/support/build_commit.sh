@@ -20,6 +20,7 @@ build_commit() {
 }
 
 # expects_changes BASE: whether a commit after BASE says in its message that plans differ: "Plans: changed".
+# (grep -q would end at the first line, and with pipefail a git that cannot write on fails it all.)
 expects_changes() {
-  git -C "$root" log --format='%(trailers:key=Plans,valueonly)' "$1..HEAD" | grep -qix 'changed'
+  git -C "$root" log --format='%(trailers:key=Plans,valueonly)' "$1..HEAD" | grep -ix 'changed' >/dev/null
 }
