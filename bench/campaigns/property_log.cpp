@@ -120,7 +120,7 @@ std::vector<db::PropertyRun> ended(std::vector<db::PropertyRun> lines) {
       line.status = "crashed";
       line.message = fmt::format(
           "the program ended before this property did; the same cases again: "
-          "RC_PARAMS=\"seed={} max_success={}\" property_{}",
+          "RC_PARAMS=\"seed={} max_success={}\" properties {}",
           line.seed, line.max_success, line.room);
     }
     runs.push_back(std::move(line));

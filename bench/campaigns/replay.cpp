@@ -31,15 +31,17 @@ CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner) {
   return verdict;
 }
 
-std::string replay_command(const std::filesystem::path& program, const std::string& reproduce) {
-  return fmt::format("RC_PARAMS=\"{}\" {}", reproduce, program.string());
+std::string replay_command(const std::filesystem::path& program, const std::string& room,
+                           const std::string& reproduce) {
+  return fmt::format("RC_PARAMS=\"{}\" {} {}", reproduce, program.string(), room);
 }
 
-ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& reproduce) {
+ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& room,
+                              const std::string& reproduce) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(program, ignored)) return ProgramVerdict::kNotRun;
   const ProgramRun run =
-      run_program({program.string()},
+      run_program({program.string(), room},
                   {.environment = {"RC_PARAMS=" + reproduce, "SIPPLAB_PROPERTY_LOG="}, .all_to_log = true});
   constexpr int kCannotExecute = 127;  // as shells have it
   if (!run.started || run.exit_code == kCannotExecute || run.exit_code == kNoSuchProperty) {

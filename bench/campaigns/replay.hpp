@@ -27,11 +27,12 @@ struct CaseVerdict {
 /// rule of instances does not.
 CaseVerdict replay_case(const PlanCase& plan_case, const Planner& planner);
 
-/// Exit code of a program that has none of the properties that it is to reproduce.
+/// Exit code of a room that has none of the properties that it is to reproduce.
 inline constexpr int kNoSuchProperty = 3;
 
-/// The shell command that tries a counterexample again.
-std::string replay_command(const std::filesystem::path& program, const std::string& reproduce);
+/// The shell command that tries a counterexample of a room again.
+std::string replay_command(const std::filesystem::path& program, const std::string& room,
+                           const std::string& reproduce);
 
 enum class ProgramVerdict {
   kHolds,
@@ -39,8 +40,9 @@ enum class ProgramVerdict {
   kNotRun,  ///< no such program, it cannot be started, or it has no such property
 };
 
-/// Runs the program with RC_PARAMS set to `reproduce`; what it prints goes to stderr.
+/// Runs a room of the program with RC_PARAMS set to `reproduce`; what it prints goes to stderr.
 /// Nothing is logged.
-ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& reproduce);
+ProgramVerdict replay_program(const std::filesystem::path& program, const std::string& room,
+                              const std::string& reproduce);
 
 }  // namespace sipplab::bench

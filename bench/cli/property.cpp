@@ -123,9 +123,9 @@ int run_show(const PropertyArguments& arguments) {
   return kSuccess;
 }
 
-/// The property's program, below the folder of sipplab in the same build.
-fs::path program_of(const PropertyArguments& arguments, const std::string& room) {
-  return fs::path(arguments.program).parent_path() / "property_tests" / ("property_" + room);
+/// The program of the properties, below the folder of sipplab in the same build.
+fs::path program_of(const PropertyArguments& arguments) {
+  return fs::path(arguments.program).parent_path() / "property_tests" / "properties";
 }
 
 /// Writes what was asked for beside the verdict; an error is one line.
@@ -155,8 +155,8 @@ int run_replay(const PropertyArguments& arguments) {
   if (run.status != "failed") {
     return fail(fmt::format("property run {} {}, expected one that failed", report.id, run.status));
   }
-  const fs::path program = program_of(arguments, run.room);
-  const std::string command = bench::replay_command(program, run.reproduce);
+  const fs::path program = program_of(arguments);
+  const std::string command = bench::replay_command(program, run.room, run.reproduce);
   const std::string& minimal = run.plan_case.empty() ? run.counterexample : run.plan_case;
   std::optional<bench::CaseVerdict> planned;
   if (const auto plan_case = decode_case(run.plan_case); plan_case && !run.plan_case.empty()) {
@@ -167,7 +167,7 @@ int run_replay(const PropertyArguments& arguments) {
   } else if (arguments.instance_file || arguments.svg) {
     return fail(fmt::format("property run {} planned no case, expected one to write or draw", report.id));
   }
-  const bench::ProgramVerdict property = bench::replay_program(program, run.reproduce);
+  const bench::ProgramVerdict property = bench::replay_program(program, run.room, run.reproduce);
 
   if (arguments.history.json) {
     nlohmann::ordered_json json;

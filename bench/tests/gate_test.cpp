@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/laboratory.hpp"
 #include "bench/gate/protocol.hpp"
+#include "bench/gate/report.hpp"
 #include "bench/gate/worker.hpp"
 #include "bench/judge/evidence.hpp"
 #include "bench/judge/judgement.hpp"
@@ -211,6 +214,35 @@ std::vector<std::string> served(const std::string& requests) {
   for (std::string line; std::getline(lines, line);) answers.push_back(line);
   answers.erase(answers.begin());
   return answers;
+}
+
+TEST(GateReport, SaysWhatCalibrationsShowInWordsAndInJson) {
+  GateRequest request;
+  request.suite = "gate";
+  request.pairs = 14;
+  GateResult result;
+  result.calibrations = 2;
+  result.judgement.cells.push_back({});
+  result.judgement.cells.front().name = "empty:32x32, 32 robots";
+  for (const auto& cell : {std::optional<std::size_t>(), std::optional<std::size_t>(0)}) {
+    Difference row;
+    row.metric = &kProcessTime;
+    row.cell = cell;
+    row.noise = cell ? 0.02 : 0.01;
+    row.detectable = cell ? std::log(1.05) : std::log(1.02);
+    result.judgement.differences.push_back(std::move(row));
+  }
+  const std::string text = noise_text(request, result);
+  EXPECT_NE(text.find("noise: 1.00 % over all cells (standard error of 14 pairs, from 2 comparisons"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("sees: a slowdown of 2.0 % over all cells, of 5.0 % in empty:32x32, 32 robots alone"),
+            std::string::npos)
+      << text;
+  const auto json = nlohmann::json::parse(noise_json(request, result));
+  EXPECT_EQ(json.at("comparisons"), 2);
+  EXPECT_EQ(json.at("pairs"), 14);
+  EXPECT_EQ(json.at("rows").size(), 2u);
 }
 
 TEST(GateWorker, AnswersEveryLine) {

@@ -32,9 +32,6 @@ expect 0 gate --calibrate --comparisons 1 --pairs 6 --pair-seconds 0.01 --fewest
 says 'from 1 comparison of equal builds'
 says '^sees: '
 
-expect 0 gate --calibrate --comparisons 1 --pairs 6 --pair-seconds 0.01 --fewest-rounds 1 --timed-only --short-cells --db json.db --format json
-says '^\{'
-
 # The same program and the same plans: whatever the clock says, it is noise.
 expect 0 "${gate[@]}" --pairs 6 --json
 says '"verdict": "equivalent"'

@@ -2,15 +2,15 @@
 # A property that fails is logged, recorded, listed, shown and tried again. Prints one
 # line per promise that is broken.
 #
-#   golden_property.sh PATH_OF_SIPPLAB PATH_OF_PROPERTY_SAMPLE
+#   golden_property.sh PATH_OF_SIPPLAB PATH_OF_PROPERTIES
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# As in a build folder: sipplab, and the programs of the properties below it.
+# As in a build folder: sipplab, and the program of the properties below it.
 install -D -m 755 "$1" "$work/sipplab"
-install -D -m 755 "$2" "$work/property_tests/property_sample"
+install -D -m 755 "$2" "$work/property_tests/properties"
 cd "$work" || exit 1
 unset RC_PARAMS SIPPLAB_PROPERTY_LOG
 
@@ -19,15 +19,17 @@ prints() { grep -qF -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(hea
 ask() { sqlite3 history.db "$1"; }
 
 # The log: two lines for each property, its beginning and its end, appended.
-runs 1 env RC_PARAMS=seed=7 SIPPLAB_PROPERTY_LOG=log property_tests/property_sample
+runs 1 env RC_PARAMS=seed=7 SIPPLAB_PROPERTY_LOG=log property_tests/properties sample
 prints 'classes: even' err
 prints 'RC_PARAMS="reproduce=' err
 equal "$(grep -c '"started"' log) $(wc -l <log)" "5 10" "lines of the log"
-runs 1 env RC_PARAMS=seed=8 SIPPLAB_PROPERTY_LOG=log property_tests/property_sample
+runs 1 env RC_PARAMS=seed=8 SIPPLAB_PROPERTY_LOG=log property_tests/properties sample
 equal "$(wc -l <log)" 20 "lines of the log after two runs"
-runs 1 property_tests/property_sample
+runs 1 property_tests/properties sample
 equal "$(wc -l <log)" 20 "lines of the log after a run without one"
-runs 2 env RC_PARAMS=max_success=many property_tests/property_sample
+runs 2 env RC_PARAMS=max_success=many property_tests/properties sample
+runs 2 property_tests/properties no_such_room
+prints 'expected one of any_angle_search' err
 
 runs 1 ./sipplab property totals log
 prints '10 property runs'
@@ -53,7 +55,7 @@ runs 0 ./sipplab property list --db history.db --all --failed --format csv
 equal "$(grep -c failed out)" 6 "failures listed"
 
 # A program that is killed leaves what it was at, until the log says how that ended.
-RC_PARAMS="seed=9 max_success=10000000" SIPPLAB_PROPERTY_LOG=killed.log property_tests/property_sample >out 2>err &
+RC_PARAMS="seed=9 max_success=10000000" SIPPLAB_PROPERTY_LOG=killed.log property_tests/properties sample >out 2>err &
 victim=$!
 comes test -s killed.log || complain 'no line in the log while a property is tried'
 kill -KILL "$victim"
@@ -66,7 +68,7 @@ equal "$(sqlite3 killed.db 'SELECT status, title, cases FROM v_property_runs')" 
 runs 0 ./sipplab property list --failed --db killed.db
 prints 'crashed'
 runs 0 ./sipplab property show 1 --db killed.db
-prints 'RC_PARAMS="seed=9 max_success=10000000" property_sample'
+prints 'RC_PARAMS="seed=9 max_success=10000000" properties sample'
 runs 1 ./sipplab property totals killed.log
 sed 's/"started"/"passed"/; s/"cases":0/"cases":7/' killed.log >ended.log
 cat ended.log >>killed.log
@@ -103,15 +105,15 @@ runs 1 bash replay_command
 prints 'still fails' err
 
 # Mended: the same property holds now.
-printf '#!/bin/sh\nexit 0\n' >property_tests/property_sample
+printf '#!/bin/sh\nexit 0\n' >property_tests/properties
 runs 0 ./sipplab property replay "$id" --db history.db
 prints 'property  holds now'
-# Renamed: a program without it does not mend it.
-cp "$(dirname "$2")/property_open_list" property_tests/property_sample
+# Renamed: a room without it does not mend it.
+printf '#!/bin/sh\nexec "%s" open_list\n' "$2" >property_tests/properties
 runs 3 ./sipplab property replay "$number" --db history.db
 prints 'not run'
 # Its program is gone: nobody can say whether it holds, whatever becomes of the plan.
-rm property_tests/property_sample
+rm property_tests/properties
 runs 3 ./sipplab property replay "$id" --db history.db
 prints 'not run'
 runs 3 ./sipplab property replay "$number" --db history.db

@@ -65,7 +65,7 @@ TEST(PropertyLog, ABeginningWithoutAnEndIsACrash) {
   ASSERT_TRUE(crashed) << crashed.error();
   ASSERT_EQ(crashed->size(), 2u);
   EXPECT_EQ(crashed->front().status, "crashed");
-  EXPECT_NE(crashed->front().message.find("property_grid"), std::string::npos) << crashed->front().message;
+  EXPECT_NE(crashed->front().message.find("properties grid"), std::string::npos) << crashed->front().message;
   EXPECT_EQ(totals_of(*crashed).crashed, 1u);
   const auto ended = parse_property_log(begun + "\n" + kPassed, "x.log");
   ASSERT_TRUE(ended) << ended.error();
@@ -187,10 +187,11 @@ TEST(ReplayCase, ACaseAgainstTheRulesIsNotPlanned) {
 }
 
 TEST(ReplayProgram, TheExitCodeIsTheVerdictAndTheParametersAreSet) {
-  EXPECT_EQ(replay_program("/bin/true", "reproduce=x"), ProgramVerdict::kHolds);
-  EXPECT_EQ(replay_program("/bin/false", "reproduce=x"), ProgramVerdict::kFails);
-  EXPECT_EQ(replay_program("no/such/program", "reproduce=x"), ProgramVerdict::kNotRun);
-  EXPECT_EQ(replay_command("folder/program", "reproduce=x"), "RC_PARAMS=\"reproduce=x\" folder/program");
+  EXPECT_EQ(replay_program("/bin/true", "room", "reproduce=x"), ProgramVerdict::kHolds);
+  EXPECT_EQ(replay_program("/bin/false", "room", "reproduce=x"), ProgramVerdict::kFails);
+  EXPECT_EQ(replay_program("no/such/program", "room", "reproduce=x"), ProgramVerdict::kNotRun);
+  EXPECT_EQ(replay_command("folder/program", "room", "reproduce=x"),
+            "RC_PARAMS=\"reproduce=x\" folder/program room");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::any_angle_search_laws {
 namespace {
 
 constexpr std::int32_t kWidth = 6;
@@ -59,11 +59,7 @@ Expected<Trajectory, PlanFailure> search(const PlanCase& world, bool any_angle, 
   return SippSearch(world.instance, options).plan(0, reservations, limits, work);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("any_angle_search", [] {
   bool passed =
       property("work is counted: a node for each motion at least, one for a straight path alone", [] {
         for (int i = 0; i < kWorldsPerCase; ++i) {
@@ -128,5 +124,8 @@ int main() {
     }
     RC_CLASSIFY(too_late, "some arrive too late");
   });
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::any_angle_search_laws

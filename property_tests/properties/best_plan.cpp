@@ -14,7 +14,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::best_plan_laws {
 namespace {
 
 constexpr std::uint64_t kRestarts = 40;
@@ -46,11 +46,7 @@ PlannerOptions best_options(const PlanCase& plan_case) {
   return options;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("best_plan", [] {
   bool passed = true;
 
   passed &=
@@ -152,5 +148,8 @@ int main() {
     RC_ASSERT(counted <= options.max_restarts + 1);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::best_plan_laws

@@ -10,7 +10,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::case_mutator_laws {
 namespace {
 
 /// Mutations of one another, as a fuzzer makes them.
@@ -28,11 +28,7 @@ void is_within_bounds(const PlanCase& plan_case) {
   RC_ASSERT(plan_case.options.max_restarts <= kMutatedRestarts);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("case_mutator", [] {
   bool passed = true;
 
   passed &= property("a mutated case keeps rules and bounds, and four in five have two robots", [] {
@@ -63,5 +59,8 @@ int main() {
     RC_ASSERT(encode_case(mutate_case(plan_case, first)) == encode_case(mutate_case(plan_case, second)));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::case_mutator_laws

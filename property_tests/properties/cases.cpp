@@ -10,7 +10,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::cases_laws {
 namespace {
 
 bool same(const PlannerOptions& a, const PlannerOptions& b) {
@@ -20,11 +20,7 @@ bool same(const PlannerOptions& a, const PlannerOptions& b) {
          a.max_restarts == b.max_restarts && a.rules == b.rules;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("cases", [] {
   bool passed = true;
 
   passed &= property("every case keeps the rules of an instance", [] {
@@ -67,5 +63,8 @@ int main() {
     RC_ASSERT(plan_case.instance.map.cell_count() == 1u);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::cases_laws

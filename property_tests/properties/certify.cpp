@@ -18,7 +18,7 @@
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/sampling_oracle.hpp"
 
-namespace sipplab {
+namespace sipplab::certify_laws {
 namespace {
 
 constexpr std::size_t kEverything = 1 << 20;
@@ -199,11 +199,7 @@ void never_contradicts(const Scene& scene) {
   RC_CLASSIFY(certification.undecided > 0, "undecided");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("certify", [] {
   bool passed = true;
 
   passed &= property("enclosures (1)(2): hold what operations on their members give", [] {
@@ -293,5 +289,8 @@ int main() {
     classify_case(plan_case);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::certify_laws

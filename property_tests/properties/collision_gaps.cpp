@@ -14,7 +14,7 @@
 #include "property_tests/support/interval_set.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::collision_gaps_laws {
 namespace {
 
 /// Two obstacles pass one after the other along row 0 of a long map, so closely that a
@@ -142,11 +142,7 @@ int leaves_no_false_gap(const Walk& walk, double reach, double rounding, const U
 constexpr std::int32_t kWalkSide = 5;
 constexpr int kWalksPerCase = 20;
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("collision_gaps", [] {
   bool passed = true;
 
   passed &= property("unsafe_departures (1): a gap of zero width in a convoy is found by one who joins it",
@@ -190,5 +186,8 @@ int main() {
     RC_CLASSIFY(2 * overlapping >= kWalksPerCase, "half of the walks come too close");
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::collision_gaps_laws

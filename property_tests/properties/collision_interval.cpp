@@ -11,7 +11,7 @@
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/unsafe_times.hpp"
 
-namespace sipplab {
+namespace sipplab::collision_interval_laws {
 namespace {
 
 /// What the encounters of a case were like, for the statistics.
@@ -118,11 +118,7 @@ bool agrees_with_samples(const Displacement& path, Vec2 place, Vec2 pardoned, do
   return answer;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("collision_interval", [] {
   bool passed = true;
 
   passed &= property("unsafe_departures (1)(3): overlap inside, none outside, contact at the ends",
@@ -148,5 +144,8 @@ int main() {
     RC_CLASSIFY(intruding > 0 && intruding < kPaths, "some intrude, some do not");
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::collision_interval_laws

@@ -16,7 +16,7 @@
 #include "sipplab/solve.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::complete_planning_laws {
 namespace {
 
 /// Steps: far more than the cases here take, a few milliseconds each at most.
@@ -151,11 +151,7 @@ bool is_valid(const Instance& instance, const Solution& solution, double ssi_s,
   return validate(instance, solution, options).valid();
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("complete_planning", [] {
   bool passed = true;
 
   passed &= property("plan_complete (1): solves exactly what an exhaustive search solves", [] {
@@ -411,5 +407,8 @@ int main() {
     RC_ASSERT(find_beyond(instance, options).has_value() == (kind > 0));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::complete_planning_laws

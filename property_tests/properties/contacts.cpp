@@ -21,7 +21,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::contacts_laws {
 namespace {
 
 /// Cells on each side, so that no body leaves the map.
@@ -195,11 +195,7 @@ void stand_at_a_corner(const Meeting& meeting) {
   RC_ASSERT(validate(instance, {{{here, {}}}}).valid() == touch);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("contacts", [] {
   bool passed = true;
   passed &= property("bodies at rest touch or overlap: everything says the same",
                      [] { agree_on_bodies_at_rest(at_full_size(make_meeting)); });
@@ -207,5 +203,8 @@ int main() {
                      [] { pass_in_contact(at_full_size(make_meeting)); });
   passed &= property("a body touches the corner of a blocked cell, and no deeper",
                      [] { stand_at_a_corner(at_full_size(make_meeting)); });
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::contacts_laws

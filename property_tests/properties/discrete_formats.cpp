@@ -23,7 +23,7 @@
 #include "property_tests/support/steps_between.hpp"
 #include "sipplab/solution_io.hpp"
 
-namespace sipplab {
+namespace sipplab::discrete_formats_laws {
 namespace {
 
 constexpr const char* kFile = "some/file";
@@ -263,11 +263,7 @@ Stepped any_stepped() {
   return stepped;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("discrete_formats", [] {
   bool passed = true;
 
   passed &= property("one plan in steps is the same from each program", [] {
@@ -443,5 +439,8 @@ int main() {
     RC_ASSERT(write_lmrp_yaml(instance) == expected);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::discrete_formats_laws

@@ -23,7 +23,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::ejection_laws {
 namespace {
 
 /// Enough for every case that can be solved; others end soon.
@@ -204,11 +204,7 @@ bool keeps_guarantee(const Scene& scene, double ssi_s, const PriorityOrder& orde
   });
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("ejection", [] {
   bool passed = true;
 
   passed &= property("every solution is valid and keeps its start-safe interval in the final order", [] {
@@ -379,5 +375,8 @@ int main() {
         if (expected) RC_ASSERT(found == expected);
       });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::ejection_laws

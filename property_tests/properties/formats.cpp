@@ -19,11 +19,12 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
+#include "property_tests/support/shown.hpp"
 #include "property_tests/support/texts.hpp"
 #include "sipplab/instance_io.hpp"
 #include "sipplab/solution_io.hpp"
 
-namespace sipplab {
+namespace sipplab::formats_laws {
 namespace {
 
 constexpr const char* kFile = "some/file";
@@ -31,9 +32,11 @@ constexpr const char* kFile = "some/file";
 // --- instances that hold everything a format has to keep ----------------------------
 
 rc::Gen<Cell> any_far_cell() {
-  return rc::gen::weightedOneOf<Cell>({{4, any_cell(9, 9)},
-                                       {1, rc::gen::construct<Cell>(rc::gen::arbitrary<std::int32_t>(),
-                                                                    rc::gen::arbitrary<std::int32_t>())}});
+  return rc::gen::weightedOneOf<Cell>(
+      {{4, any_cell(9, 9)}, {1, rc::gen::exec([] {
+                               const auto x = *rc::gen::arbitrary<std::int32_t>();
+                               return Cell{x, *rc::gen::arbitrary<std::int32_t>()};
+                             })}});
 }
 
 rc::Gen<double> any_radius_allowed() {
@@ -48,51 +51,49 @@ rc::Gen<double> any_speed_allowed() {
 rc::Gen<double> any_heading() { return any_real_between(0, std::nextafter(360.0, 0.0)); }
 
 rc::Gen<Agent> any_agent() {
-  return rc::gen::build<Agent>(
-      rc::gen::set(&Agent::id, any_text()), rc::gen::set(&Agent::start, any_far_cell()),
-      rc::gen::set(&Agent::goal, any_far_cell()), rc::gen::set(&Agent::radius_cells, any_radius_allowed()),
-      rc::gen::set(&Agent::speed_cells_per_s, any_speed_allowed()),
-      rc::gen::set(&Agent::start_heading_deg,
-                   rc::gen::weightedOneOf<double>({{2, rc::gen::just(0.0)}, {1, any_heading()}})),
-      rc::gen::set(&Agent::goal_heading_deg, rc::gen::map(rc::gen::maybe(any_heading()),
-                                                          [](const rc::Maybe<double>& heading) {
-                                                            return heading ? std::optional<double>(*heading)
-                                                                           : std::nullopt;
-                                                          })),
-      rc::gen::set(&Agent::rotation_speed, rc::gen::weightedOneOf<double>(
-                                               {{2, rc::gen::just(1.0)}, {1, any_real_between(1e-3, 1e3)}})));
+  return rc::gen::exec([] {
+    Agent agent;
+    agent.id = *any_text();
+    agent.start = *any_far_cell();
+    agent.goal = *any_far_cell();
+    agent.radius_cells = *any_radius_allowed();
+    agent.speed_cells_per_s = *any_speed_allowed();
+    if (*any_of({false, false, true})) agent.start_heading_deg = *any_heading();
+    if (*any_of({false, true})) agent.goal_heading_deg = *any_heading();
+    if (*any_of({false, false, true})) agent.rotation_speed = *any_real_between(1e-3, 1e3);
+    return agent;
+  });
 }
 
 rc::Gen<DynamicObstacle> any_obstacle() {
-  return rc::gen::apply(
-      [](const std::string& id, const Walk& walk, double radius_cells) {
-        return DynamicObstacle{id, radius_cells, walk.trajectory()};
-      },
-      any_text(), any_walk(9, 9), any_radius_allowed());
+  return rc::gen::exec([] {
+    const std::string id = *any_text();
+    const double radius_cells = *any_radius_allowed();
+    return DynamicObstacle{id, radius_cells, (*any_walk(9, 9)).trajectory()};
+  });
 }
 
 rc::Gen<GridMap> any_map() {
-  const auto any_side = rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::int32_t>(1, 12));
-  return rc::gen::mapcat(rc::gen::pair(any_side, any_side), [](std::pair<std::int32_t, std::int32_t> size) {
-    const auto cells = static_cast<std::size_t>(size.first) * static_cast<std::size_t>(size.second);
-    return rc::gen::map(rc::gen::container<std::vector<bool>>(cells, rc::gen::arbitrary<bool>()),
-                        [size](const std::vector<bool>& blocked) {
-                          GridMap map(size.first, size.second);
-                          for (std::size_t i = 0; i < blocked.size(); ++i)
-                            map.set_blocked(map.cell(i), blocked[i]);
-                          return map;
-                        });
+  return rc::gen::exec([] {
+    const auto any_side = rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::int32_t>(1, 12));
+    const auto width = *any_side;
+    GridMap map(width, *any_side);
+    const auto blocked = *rc::gen::container<std::vector<bool>>(map.cell_count(), rc::gen::arbitrary<bool>());
+    for (std::size_t i = 0; i < blocked.size(); ++i) map.set_blocked(map.cell(i), blocked[i]);
+    return map;
   });
 }
 
 /// Need not keep the rules of find_error: a format keeps what it is given.
 rc::Gen<Instance> any_instance() {
-  return rc::gen::build<Instance>(
-      rc::gen::set(&Instance::map, any_map()),
-      rc::gen::set(&Instance::agents,
-                   rc::gen::resize(6, rc::gen::container<std::vector<Agent>>(any_agent()))),
-      rc::gen::set(&Instance::obstacles,
-                   rc::gen::resize(3, rc::gen::container<std::vector<DynamicObstacle>>(any_obstacle()))));
+  return rc::gen::exec([] {
+    Instance instance;
+    instance.map = *any_map();
+    instance.agents = *rc::gen::resize(6, rc::gen::container<std::vector<Agent>>(any_agent()));
+    instance.obstacles =
+        *rc::gen::resize(3, rc::gen::container<std::vector<DynamicObstacle>>(any_obstacle()));
+    return instance;
+  });
 }
 
 /// The parts of one file as an instance; nothing if it holds no map.
@@ -468,17 +469,7 @@ void read_damaged_solution(const Told& told, const std::string& text) {
   RC_ASSERT(read->solution == document->solution);
 }
 
-}  // namespace
-
-std::ostream& operator<<(std::ostream& out, const Instance& instance) {
-  return out << write_instance_xml(instance);
-}
-std::ostream& operator<<(std::ostream& out, const GridMap& map) { return out << write_movingai_map(map); }
-
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("formats", [] {
   bool passed = true;
 
   passed &= property("an instance reads back from XML as it was", [] {
@@ -553,5 +544,8 @@ int main() {
     read_damaged_solution(told, *any_damage(*write_solution(format, told.instance, told.document)));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::formats_laws

@@ -25,7 +25,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/instance_io.hpp"
 
-namespace sipplab::bench {
+namespace sipplab::bench::gate_laws {
 namespace {
 
 using db::any_flag;
@@ -33,8 +33,8 @@ using db::any_whole;
 using nlohmann::json;
 
 /// Each starts some thirty processes.
-constexpr int kComparisons = (SIPPLAB_PROPERTY_CASES + 39) / 40;
-constexpr int kFewer = (SIPPLAB_PROPERTY_CASES + 3) / 4;
+constexpr int kComparisons = (kCasesOfHistories + 39) / 40;
+constexpr int kFewer = (kCasesOfHistories + 3) / 4;
 
 /// The cases of the gate's own suite, made once.
 const GateCases& cases() {
@@ -296,12 +296,7 @@ void noise_is_what_calibrations_measured() {
   }
 }
 
-}  // namespace
-}  // namespace sipplab::bench
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::bench;
+const PropertyRoom room("gate", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &=
@@ -310,5 +305,8 @@ int main() {
   passed &= property("noise is what calibrations measured, else the scatter of the pairs",
                      noise_is_what_calibrations_measured, kComparisons);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::bench::gate_laws

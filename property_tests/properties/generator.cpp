@@ -14,7 +14,7 @@
 #include "planner/instance/reachability.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::generator_laws {
 namespace {
 
 GeneratorOptions any_options(std::size_t most_agents) {
@@ -70,11 +70,7 @@ double cells_from(const GridMap& map, Cell place) {
   return std::hypot(x, y);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("generator", [] {
   bool passed = true;
 
   passed &= property("a generated instance keeps all rules, and every goal can be reached", [] {
@@ -279,5 +275,8 @@ int main() {
     RC_ASSERT(std::abs(random->density - hundredths / 100.0) < 1e-6);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::generator_laws

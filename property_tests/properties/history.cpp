@@ -18,7 +18,7 @@
 #include "property_tests/support/scratch_folder.hpp"
 #include "property_tests/support/texts.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_laws {
 namespace {
 
 /// Checking all of a file takes longer the more runs there are in it.
@@ -271,12 +271,7 @@ void check_sound(Database& database) {
   RC_ASSERT(must(connection.query_int("SELECT count(*) FROM pragma_foreign_key_check", "checking")) == 0);
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history", kCasesOfHistories, [] {
   bool passed = true;
 
   {
@@ -303,5 +298,8 @@ int main() {
     });
   }
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_laws

@@ -17,11 +17,11 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_campaigns_laws {
 namespace {
 
-constexpr int kFewer = (SIPPLAB_PROPERTY_CASES + 3) / 4;
-constexpr int kFewest = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+constexpr int kFewer = (kCasesOfHistories + 3) / 4;
+constexpr int kFewest = (kCasesOfHistories + 7) / 8;
 
 std::string utc(int minute) {
   return "2026-01-01T00:" + std::string(minute < 10 ? "0" : "") + std::to_string(minute) + ":00.000Z";
@@ -447,12 +447,7 @@ void the_doctor_finds_nothing_where_nothing_is() {
   RC_ASSERT(report.findings.empty());
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history_campaigns", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &=
@@ -470,5 +465,8 @@ int main() {
   passed &=
       property("the doctor finds nothing where nothing is", the_doctor_finds_nothing_where_nothing_is, 3);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_campaigns_laws

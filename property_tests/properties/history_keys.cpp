@@ -22,12 +22,12 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_keys_laws {
 namespace {
 
 /// Histories with a cell for each column of a case: few of them.
-constexpr int kManyCells = (SIPPLAB_PROPERTY_CASES + 19) / 20;
-constexpr int kFewCells = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+constexpr int kManyCells = (kCasesOfHistories + 19) / 20;
+constexpr int kFewCells = (kCasesOfHistories + 7) / 8;
 
 // --- one column changed -------------------------------------------------------------
 
@@ -743,12 +743,7 @@ void sides_are_what_they_are_called() {
   }
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history_keys", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("cases that differ in one column are recorded, merged, compared and followed apart",
@@ -770,5 +765,8 @@ int main() {
   passed &= property("a side of a comparison is the runs that it is called after",
                      sides_are_what_they_are_called, kFewCells);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_keys_laws

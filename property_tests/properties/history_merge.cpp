@@ -21,11 +21,11 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_merge_laws {
 namespace {
 
 /// Each makes, merges and reads several files: few of them.
-constexpr int kManyFiles = (SIPPLAB_PROPERTY_CASES + 19) / 20;
+constexpr int kManyFiles = (kCasesOfHistories + 19) / 20;
 
 // --- files as text ------------------------------------------------------------------
 
@@ -464,12 +464,7 @@ void best_known_costs_are_the_best() {
   }
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history_merge", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("merging in any order, once or twice, gives the same history",
@@ -485,5 +480,8 @@ int main() {
                      kManyFiles);
   passed &= property("of best known costs the best are kept", best_known_costs_are_the_best, kManyFiles);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_merge_laws

@@ -21,10 +21,10 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_trends_laws {
 namespace {
 
-constexpr int kManyRuns = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+constexpr int kManyRuns = (kCasesOfHistories + 7) / 8;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
@@ -594,12 +594,7 @@ void sparklines_rise_with_values() {
   RC_ASSERT(line.substr(kBytes * static_cast<std::size_t>(high - values.begin()), kBytes) == "█");
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history_trends", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("versions are in topological order, whatever merges and clocks say",
@@ -617,5 +612,8 @@ int main() {
                      changes_are_certain_and_large_enough);
   passed &= property("a sparkline rises with its values", sparklines_rise_with_values);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_trends_laws

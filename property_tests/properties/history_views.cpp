@@ -25,11 +25,11 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::history_views_laws {
 namespace {
 
 /// Each history holds some of everything and is asked everything: few of them.
-constexpr int kWholeHistories = (SIPPLAB_PROPERTY_CASES + 12) / 13;
+constexpr int kWholeHistories = (kCasesOfHistories + 12) / 13;
 
 using Texts = std::vector<std::string>;
 using Formulas = std::map<std::string, std::string>;
@@ -903,12 +903,7 @@ void excluded_is_as_if_never_recorded() {
   RC_CLASSIFY(!excluded.empty(), "some excluded");
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("history_views", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("every column of every view is what it is called, or its formula",
@@ -919,5 +914,8 @@ int main() {
   passed &= property("an excluded run is as if it had never been recorded, for every view and every question",
                      excluded_is_as_if_never_recorded, kWholeHistories);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::history_views_laws

@@ -14,12 +14,10 @@
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/shown.hpp"
 #include "sipplab/prioritized_planner.hpp"
 
-namespace sipplab {
-
-void showValue(const Objective& objective, std::ostream& out) { out << format_objective(objective); }
-
+namespace sipplab::improvement_laws {
 namespace {
 
 struct Planned {
@@ -98,11 +96,7 @@ class AllPaths {
 /// Rounding of sums of a few dozen lengths.
 constexpr double kRoundingCells = 1e-9;
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("improvement", [] {
   bool passed = true;
 
   passed &= property("improve (1): never worse than what it was given, and as it says", [] {
@@ -311,5 +305,8 @@ int main() {
                   kRoundingCells / agent.speed_cells_per_s);
       });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::improvement_laws

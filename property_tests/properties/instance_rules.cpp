@@ -19,7 +19,7 @@
 #include "sipplab/instance.hpp"
 #include "sipplab/solution.hpp"
 
-namespace sipplab {
+namespace sipplab::instance_rules_laws {
 namespace {
 
 constexpr std::int64_t kParts = 8;  // of a cell
@@ -200,11 +200,7 @@ std::size_t motions_before_rest(const Trajectory& trajectory) {
   return count;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("instance_rules", [] {
   bool passed = true;
 
   passed &= property("find_error: complains exactly where whole numbers do; touching is allowed", [] {
@@ -325,5 +321,8 @@ int main() {
     RC_ASSERT(flowtime_s(scene.solution) == sum_s);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::instance_rules_laws

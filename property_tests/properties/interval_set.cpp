@@ -1,6 +1,7 @@
 // Safe time against a row of points that are each safe or not.
 #include "property_tests/support/interval_set.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/shown.hpp"
 
 #include <rapidcheck.h>
 
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sipplab {
+namespace sipplab::interval_set_laws {
 namespace {
 
 /// Cuts begin and end at whole points 0 .. kPoints of the row; between two of them lies
@@ -68,6 +69,10 @@ bool is_point(const Interval& interval) { return interval.begin_s == interval.en
 /// OpenInterval with begin_s <= end_s, as remove_open requires.
 OpenInterval ordered(OpenInterval span) { return {span.begin_s, std::max(span.begin_s, span.end_s)}; }
 
+using Spans = std::vector<OpenInterval>;
+
+rc::Gen<Spans> any_spans() { return rc::gen::container<Spans>(any_span()); }
+
 void agrees_with_points(const std::vector<OpenInterval>& spans, IntervalSet& set) {
   PointModel model;
   std::size_t most = 0;
@@ -87,34 +92,17 @@ void agrees_with_points(const std::vector<OpenInterval>& spans, IntervalSet& set
   RC_CLASSIFY(left.empty(), "nothing left");
 }
 
-}  // namespace
-
-std::ostream& operator<<(std::ostream& out, const OpenInterval& span) {
-  return out << "(" << span.begin_s << ", " << span.end_s << ")";
-}
-
-}  // namespace sipplab
-
-namespace rc {
-
-template <>
-struct Arbitrary<sipplab::OpenInterval> {
-  static Gen<sipplab::OpenInterval> arbitrary() { return sipplab::any_span(); }
-};
-
-}  // namespace rc
-
-int main() {
-  using namespace sipplab;
-  using Spans = std::vector<OpenInterval>;
+const PropertyRoom room("interval_set", [] {
   bool passed = true;
 
-  passed &= property("remove_open (1)(2)(3): agrees with removal point by point", [](const Spans& spans) {
+  passed &= property("remove_open (1)(2)(3): agrees with removal point by point", [] {
+    const Spans spans = *any_spans();
     IntervalSet set;
     agrees_with_points(spans, set);
   });
 
-  passed &= property("remove_open: the order of removals does not matter", [](const Spans& spans) {
+  passed &= property("remove_open: the order of removals does not matter", [] {
+    const Spans spans = *any_spans();
     IntervalSet forwards;
     IntervalSet backwards;
     for (const OpenInterval& span : spans) forwards.remove_open(ordered(span));
@@ -122,14 +110,18 @@ int main() {
     RC_ASSERT(forwards.intervals() == backwards.intervals());
   });
 
-  passed &=
-      property("reset: nothing that was removed is remembered", [](const Spans& before, const Spans& after) {
-        IntervalSet set;
-        for (const OpenInterval& span : before) set.remove_open(ordered(span));
-        set.reset();
-        RC_ASSERT(set.intervals() == std::pmr::vector<Interval>{Interval{}});
-        agrees_with_points(after, set);
-      });
+  passed &= property("reset: nothing that was removed is remembered", [] {
+    const Spans before = *any_spans();
+    const Spans after = *any_spans();
+    IntervalSet set;
+    for (const OpenInterval& span : before) set.remove_open(ordered(span));
+    set.reset();
+    RC_ASSERT(set.intervals() == std::pmr::vector<Interval>{Interval{}});
+    agrees_with_points(after, set);
+  });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::interval_set_laws

@@ -16,7 +16,7 @@
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::keepouts_laws {
 namespace {
 
 constexpr std::int32_t kWidth = 8;
@@ -142,11 +142,7 @@ void agrees_with_samples(const std::vector<Keepout>& keepouts, const std::vector
   RC_CLASSIFY(pardoned > 0, "some pardoned");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("keepouts", [] {
   bool passed = true;
 
   passed &=
@@ -177,5 +173,8 @@ int main() {
     }
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::keepouts_laws

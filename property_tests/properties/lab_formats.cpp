@@ -27,7 +27,7 @@
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/texts.hpp"
 
-namespace sipplab::bench {
+namespace sipplab::bench::lab_formats_laws {
 namespace {
 
 using db::any_flag;
@@ -36,8 +36,8 @@ using db::Table;
 using db::Value;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kFewer = (SIPPLAB_PROPERTY_CASES + 3) / 4;
-constexpr int kFewest = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+constexpr int kFewer = (kCasesOfHistories + 3) / 4;
+constexpr int kFewest = (kCasesOfHistories + 7) / 8;
 
 // --- tables -------------------------------------------------------------------------
 
@@ -720,12 +720,7 @@ void beginnings_of_names_are_enough() {
   RC_ASSERT(db::must(db::resolve_run(database, meant.uuid)) == meant.uuid);
 }
 
-}  // namespace
-}  // namespace sipplab::bench
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::bench;
+const PropertyRoom room("lab_formats", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("a table as CSV is read as it was written", csv_is_read_as_written);
@@ -743,5 +738,8 @@ int main() {
   passed &=
       property("the beginning of its name is enough for a run", beginnings_of_names_are_enough, kFewest);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::bench::lab_formats_laws

@@ -11,13 +11,9 @@
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/exact_line_of_sight.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/shown.hpp"
 
-namespace sipplab {
-
-std::ostream& operator<<(std::ostream& out, Fraction radius) {
-  return out << radius.numerator << "/" << radius.denominator;
-}
-
+namespace sipplab::line_of_sight_laws {
 namespace {
 
 rc::Gen<Fraction> any_fraction() {
@@ -125,11 +121,7 @@ void agrees_on_all_rows(Cell displacement, Fraction radius) {
   }
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("line_of_sight", [] {
   bool passed = true;
 
   passed &= property("is_legal and is_clear (1)(2)(3): agree with whole numbers, cell by cell",
@@ -148,5 +140,8 @@ int main() {
     agrees_on_all_rows(*any_displacement(150), radius);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::line_of_sight_laws

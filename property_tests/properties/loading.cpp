@@ -19,7 +19,7 @@
 #include "property_tests/support/scratch_folder.hpp"
 #include "sipplab/instance_io.hpp"
 
-namespace sipplab {
+namespace sipplab::loading_laws {
 namespace {
 
 /// What MovingAI's formats can say, too.
@@ -156,11 +156,7 @@ void options_are_read_as_stated() {
   RC_ASSERT(loaded->options.applied_to(before) == expected);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("loading", [] {
   bool passed = true;
 
   passed &= property("the first robots of a file are loaded, and no more than there are can be asked for",
@@ -168,5 +164,8 @@ int main() {
   passed &= property("defaults hold for what a robot leaves open", defaults_hold_where_nothing_is_said);
   passed &= property("options are read as stated, and what is left open stays", options_are_read_as_stated);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::loading_laws

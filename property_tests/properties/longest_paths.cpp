@@ -13,7 +13,7 @@
 
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::longest_paths_laws {
 namespace {
 
 struct Graph {
@@ -108,11 +108,7 @@ std::optional<std::int64_t> asked_by(const Graph& graph, const std::vector<Event
   return sum;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("longest_paths", [] {
   bool passed = true;
 
   passed &= property("least_times (1)(2): as rounds over all constraints have it, or a circle", [] {
@@ -139,5 +135,8 @@ int main() {
     RC_CLASSIFY(found.circle.size() > 2, "more than two events");
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::longest_paths_laws

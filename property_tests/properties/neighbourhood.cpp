@@ -18,7 +18,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/grid_map.hpp"
 
-namespace sipplab {
+namespace sipplab::neighbourhood_laws {
 namespace {
 
 /// Rounding of sums of square roots.
@@ -92,11 +92,7 @@ Cell any_far_cell() {
 
 bool nearly(double a, double b) { return std::abs(a - b) <= kRoundingCells * (1 + std::abs(b)); }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("neighbourhood", [] {
   bool passed = true;
 
   passed &= property("neighbourhood_distance: is what Dijkstra's algorithm finds on an empty grid", [] {
@@ -182,5 +178,8 @@ int main() {
     RC_ASSERT(neighbourhood_distance(from, from, kMaxConnectedness) == 0);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::neighbourhood_laws

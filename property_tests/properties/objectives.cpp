@@ -22,7 +22,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/prioritized_planner.hpp"
 
-namespace sipplab {
+namespace sipplab::objectives_laws {
 namespace {
 
 /// Seconds or cells: rounding of sums.
@@ -131,11 +131,7 @@ bool comes_near(const Trajectory& trajectory, Vec2 place, double time_s, double 
   return trajectory.end_s() <= time_s + window_s && is_near(trajectory.end(), trajectory.end());
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("objectives", [] {
   bool passed = true;
 
   passed &= property("flowtime is the sum of arrivals, makespan the latest; objectives weigh them", [] {
@@ -398,5 +394,8 @@ int main() {
     }
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::objectives_laws

@@ -10,7 +10,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::older_formats_laws {
 namespace {
 
 /// A map of its own, robots of default size anywhere: readers do not judge places.
@@ -72,11 +72,7 @@ std::string octile_map(const GridMap& map) {
   return text;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("older_formats", [] {
   bool passed = true;
 
   passed &= property("the older XML dialect gives the map and the robots that it describes", [] {
@@ -97,5 +93,8 @@ int main() {
     RC_ASSERT(*read == map);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::older_formats_laws

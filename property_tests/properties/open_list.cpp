@@ -11,7 +11,7 @@
 
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::open_list_laws {
 namespace {
 
 /// What a search does to OPEN: queue an entry (pop when there is none), or take one out.
@@ -77,12 +77,11 @@ void same_as_a_list(const std::vector<Step>& steps) {
   RC_ASSERT(open.empty());
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("open_list", [] {
   const bool passed = property("pop_min: the least f, of these the greatest arrival, of these the first come",
                                [] { same_as_a_list(*any_steps()); });
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::open_list_laws

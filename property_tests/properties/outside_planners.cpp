@@ -22,14 +22,14 @@
 #include "sipplab/solve.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab::bench {
+namespace sipplab::bench::outside_planners_laws {
 namespace {
 
 using db::any_flag;
 using db::any_whole;
 
 /// Each starts some shells.
-constexpr int kShells = (SIPPLAB_PROPERTY_CASES + 7) / 8;
+constexpr int kShells = (kCasesOfHistories + 7) / 8;
 
 Instance any_instance(std::size_t obstacles = 0) {
   GeneratorOptions options;
@@ -378,12 +378,7 @@ void limits_end_programs() {
   RC_ASSERT(row.planning_time_ns >= 1'125'000'000);
 }
 
-}  // namespace
-}  // namespace sipplab::bench
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::bench;
+const PropertyRoom room("outside_planners", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("a placeholder stands for the value that it is called after, in its unit",
@@ -395,5 +390,8 @@ int main() {
       property("a plan that is re-timed is told as it was given", retimed_plans_are_told_as_given, kShells);
   passed &= property("a program that is ended has reached its limit", limits_end_programs, 1);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::bench::outside_planners_laws

@@ -13,7 +13,7 @@
 #include "property_tests/support/sampling_oracle.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::pairwise_separation_laws {
 namespace {
 
 constexpr double kSampleStepS = 1.0 / 32;
@@ -69,11 +69,7 @@ void wall_in(GridMap& map, Cell middle) {
   }
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("pairwise_separation", [] {
   bool passed = true;
 
   for (int i = 0; i < kCaseFamilies; ++i) {
@@ -95,5 +91,8 @@ int main() {
     RC_ASSERT(plan(instance, plan_case.options).status != PlanStatus::kSolved);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::pairwise_separation_laws

@@ -19,7 +19,7 @@
 #include "property_tests/support/texts.hpp"
 #include "sipplab/svg.hpp"
 
-namespace sipplab {
+namespace sipplab::pictures_laws {
 namespace {
 
 /// Cells: places have three decimals.
@@ -337,11 +337,7 @@ void plays_the_plan(const Picture& picture) {
       is_near(std::stod(parts_of(progress[0].attribute("keyTimes").value(), ';')[1]), end_s / round_s, 1e-6));
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("pictures", [] {
   bool passed = true;
 
   passed &= property("a picture has the map, all bodies in true size and the way of each", [] {
@@ -366,5 +362,8 @@ int main() {
     shows_bodies(*picture);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::pictures_laws

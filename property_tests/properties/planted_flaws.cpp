@@ -17,7 +17,7 @@
 #include "sipplab/options.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::planted_flaws_laws {
 namespace {
 
 /// Nothing is left out of a report on a scene this small.
@@ -196,11 +196,7 @@ void wants_an_order_of_all() {
   RC_CLASSIFY(is_order, "orders");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("planted_flaws", [] {
   bool passed = true;
 
   passed &= property("a start or goal that is another is found", finds_endpoints);
@@ -214,5 +210,8 @@ int main() {
   passed &=
       property("a guarantee to an order that is not one of all robots is refused", wants_an_order_of_all);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::planted_flaws_laws

@@ -9,7 +9,7 @@
 #include "property_tests/support/scene_maker.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::planted_overlap_laws {
 namespace {
 
 /// Cells. Rounding of a depth that was planted through a sum of radii.
@@ -54,11 +54,7 @@ Meeting any_meeting() {
   return *rc::gen::element(Meeting::kPassing, Meeting::kAtAGoalForEver, Meeting::kAtTheStart);
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("planted_overlap", [] {
   bool passed = true;
 
   passed &= property("planted overlaps from 1e-6 cells on are found, with pair, time and depth", [] {
@@ -82,5 +78,8 @@ int main() {
     RC_ASSERT(validate(planted.scene.instance, planted.scene.solution).valid());
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::planted_overlap_laws

@@ -24,7 +24,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::prioritized_planning_laws {
 namespace {
 
 /// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each; another path is
@@ -251,15 +251,15 @@ class ComparedSearch : public SingleAgentPlanner {
 enum class Robots { kPlain, kTurning };
 
 Seen compares_well(bool any_angle, Robots robots) {
-  Posed posed = sipplab::posed(any_world(), any_angle);
+  Posed question = posed(any_world(), any_angle);
   if (robots == Robots::kTurning) {
     const auto seed = *rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>());
-    posed.plan_case = with_motion_rules(posed.plan_case, seed);
+    question.plan_case = with_motion_rules(question.plan_case, seed);
   }
-  note_case(posed.plan_case);
-  ComparedSearch search(posed);
-  const PlanResult result = plan_prioritized(posed.plan_case.instance, posed.plan_case.options, search);
-  const PlanResult usual = plan(posed.plan_case.instance, posed.plan_case.options);
+  note_case(question.plan_case);
+  ComparedSearch search(question);
+  const PlanResult result = plan_prioritized(question.plan_case.instance, question.plan_case.options, search);
+  const PlanResult usual = plan(question.plan_case.instance, question.plan_case.options);
   RC_ASSERT(result.status == usual.status);
   RC_ASSERT(result.solution == usual.solution);
   for (const PlanResult* counted : {&result, &usual}) {
@@ -285,11 +285,7 @@ void compare_worlds(bool any_angle, Robots robots = Robots::kPlain) {
   RC_CLASSIFY(all.failed > 0, "some without a path");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("prioritized_planning", [] {
   bool passed = true;
 
   passed &=
@@ -303,5 +299,8 @@ int main() {
       property("with headings, delays and inflation, too, each arrives as early as an exhaustive search",
                [] { compare_worlds(false, Robots::kTurning); });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::prioritized_planning_laws

@@ -16,7 +16,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::priority_order_laws {
 namespace {
 
 /// The least time that a robot needs, if a formula is at hand: any-angle, or four
@@ -99,11 +99,7 @@ bool keeps_starts_for_ever(const PlanCase& plan_case, const PlanResult& result) 
   return validate(plan_case.instance, result.solution, options).valid();
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("priority_order", [] {
   bool passed = true;
 
   passed &= property("shortest first goes by least time, ties by input position",
@@ -175,5 +171,8 @@ int main() {
     if (result.status == PlanStatus::kSolved) RC_ASSERT(keeps_starts_for_ever(plan_case, result));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::priority_order_laws

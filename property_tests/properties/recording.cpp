@@ -22,7 +22,7 @@
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/texts.hpp"
 
-namespace sipplab::db {
+namespace sipplab::db::recording_laws {
 namespace {
 
 namespace fs = std::filesystem;
@@ -379,12 +379,7 @@ void quantiles_are_on_the_line() {
   RC_ASSERT(!statistics::quantile({}, p).has_value());
 }
 
-}  // namespace
-}  // namespace sipplab::db
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db;
+const PropertyRoom room("recording", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("a run that is resumed any number of times ends as if it was never interrupted",
@@ -401,5 +396,8 @@ int main() {
       property("a history of any newer schema is refused and stays as it is", newer_schemas_are_refused);
   passed &= property("a quantile lies on the line through the sorted values", quantiles_are_on_the_line);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::recording_laws

@@ -10,7 +10,7 @@
 #include "property_tests/support/order_rules.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::rescheduling_laws {
 namespace {
 
 bool same(const PlanResult& a, const PlanResult& b) {
@@ -42,11 +42,7 @@ void follows_the_rules_of(Rescheduling rescheduling) {
   RC_ASSERT(find_wrong_try(plan_case, plan_case_of(plan_case)) == "");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("rescheduling", [] {
   bool passed = true;
 
   passed &= property("the same case gives the same result, to the last bit and counter", [] {
@@ -143,5 +139,8 @@ int main() {
     RC_ASSERT(limited.tries() == plan_case.options.max_restarts + 1);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::rescheduling_laws

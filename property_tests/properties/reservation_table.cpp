@@ -19,7 +19,7 @@
 #include "property_tests/support/plain_twins.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::reservation_table_laws {
 namespace {
 
 constexpr std::int32_t kWidth = 7;
@@ -307,11 +307,7 @@ std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query
   return {found, given_up};
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("reservation_table", [] {
   bool passed = true;
 
   passed &=
@@ -396,5 +392,8 @@ int main() {
     agrees_with_plain_twin(filled, queries);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::reservation_table_laws

@@ -18,7 +18,7 @@
 #include "property_tests/support/property.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::retiming_laws {
 namespace {
 
 /// Seconds. Above what bisection and rounding leave.
@@ -254,11 +254,7 @@ bool has_slack(const Instance& instance, const Solution& solution, double earlie
   return false;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("retiming", [] {
   bool passed = true;
 
   passed &= property("retime (1)(4): discrete plans get the times that rounds over all pairs give", [] {
@@ -357,5 +353,8 @@ int main() {
     RC_ASSERT(std::abs(flowtime_s(twice->solution) - flowtime_s(once->solution)) <= kSameTimeS);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::retiming_laws

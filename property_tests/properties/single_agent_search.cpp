@@ -18,7 +18,7 @@
 #include "property_tests/support/plain_twins.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::single_agent_search_laws {
 namespace {
 
 /// Seconds. Slacks at contacts add up along a path, 1e-9 to 1e-8 each; another path is
@@ -354,11 +354,7 @@ std::uint64_t respects_limit(const World& world, const SippOptions& options) {
   return needed;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("single_agent_search", [] {
   bool passed = true;
 
   passed &= property("SIPP arrives exactly as early as an exhaustive search", [] {
@@ -500,5 +496,8 @@ int main() {
     RC_CLASSIFY(plain > 3, "more than three expansions");
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::single_agent_search_laws

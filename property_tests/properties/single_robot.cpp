@@ -10,7 +10,7 @@
 #include "property_tests/support/property.hpp"
 #include "property_tests/support/steps_between.hpp"
 
-namespace sipplab {
+namespace sipplab::single_robot_laws {
 namespace {
 
 /// A case of one robot of radius 0.5 and speed 1, and nothing that moves.
@@ -23,11 +23,7 @@ PlanCase one_robot() {
   return plan_case;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("single_robot", [] {
   bool passed = true;
 
   passed &= property("solved exactly when breadth-first search reaches the goal", [] {
@@ -69,5 +65,8 @@ int main() {
     RC_ASSERT(result.solution.trajectories[0].motions.size() == (agent.start == agent.goal ? 0u : 1u));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::single_robot_laws

@@ -15,15 +15,9 @@
 #include "planner/core/tolerances.hpp"
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/shown.hpp"
 
-namespace sipplab {
-
-void showValue(const LinearMotion& motion, std::ostream& out) {
-  const Vec2 v = motion.velocity_cells_per_s;
-  out << "from (" << motion.from.x << ", " << motion.from.y << ") at " << motion.begin_s << " to "
-      << motion.end_s << " s, (" << v.x << ", " << v.y << ") a second";
-}
-
+namespace sipplab::spacing_laws {
 namespace {
 
 /// Sampled times of a motion, both ends among them.
@@ -205,11 +199,7 @@ std::vector<SpacingConflict> all_conflicts(const Crowd& crowd) {
   return found;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("spacing", [] {
   bool passed = true;
 
   passed &= property("closest_within: no sampled pair of times is closer", [] {
@@ -279,5 +269,8 @@ int main() {
     RC_CLASSIFY(!expected.empty() && !expected.front().in_time, "too near while moving");
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::spacing_laws

@@ -12,7 +12,7 @@
 #include "property_tests/support/sampling_oracle.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::start_safe_interval_laws {
 namespace {
 
 constexpr double kSampleStepS = 1.0 / 32;
@@ -55,11 +55,7 @@ Instance in_order(const Instance& instance, const PriorityOrder& order) {
   return sorted;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("start_safe_interval", [] {
   bool passed = true;
 
   passed &= property("no robot comes too near a lower-priority start during [0, k], k a fraction",
@@ -124,5 +120,8 @@ int main() {
     RC_ASSERT(std::abs(result.solution.trajectories[0].arrival_s() - earliest_s) < 1e-6);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::start_safe_interval_laws

@@ -16,7 +16,7 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::db::statistics {
+namespace sipplab::db::statistics::statistics_laws {
 namespace {
 
 /// Sums of some thousand terms, and the tails of distributions.
@@ -475,12 +475,7 @@ void false_discoveries_are_as_defined() {
   }
 }
 
-}  // namespace
-}  // namespace sipplab::db::statistics
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::db::statistics;
+const PropertyRoom room("statistics", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &=
@@ -506,5 +501,8 @@ int main() {
   passed &= property("false discoveries are held as Benjamini and Hochberg define it",
                      false_discoveries_are_as_defined);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::db::statistics::statistics_laws

@@ -29,13 +29,13 @@
 #include "sipplab/generator.hpp"
 #include "sipplab/instance_io.hpp"
 
-namespace sipplab::bench {
+namespace sipplab::bench::sweeps_laws {
 namespace {
 
 using db::any_flag;
 using db::any_whole;
 
-constexpr int kFewer = (SIPPLAB_PROPERTY_CASES + 3) / 4;
+constexpr int kFewer = (kCasesOfHistories + 3) / 4;
 
 template <class T>
 T valued(Expected<T, std::string> value) {
@@ -599,12 +599,7 @@ void the_limit_that_struck_is_named() {
   RC_CLASSIFY(row.limit == "restarts", "restarts");
 }
 
-}  // namespace
-}  // namespace sipplab::bench
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::bench;
+const PropertyRoom room("sweeps", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("all shards together do everything once, and each as much as the others",
@@ -623,5 +618,8 @@ int main() {
   passed &= property("an outcome is the sum of its results", outcomes_are_sums);
   passed &= property("the limit that struck is named", the_limit_that_struck_is_named);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::bench::sweeps_laws

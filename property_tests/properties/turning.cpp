@@ -25,7 +25,7 @@
 #include "sipplab/prioritized_planner.hpp"
 #include "sipplab/validator.hpp"
 
-namespace sipplab {
+namespace sipplab::turning_laws {
 namespace {
 
 /// Seconds. Rounding of sums of square roots and angles.
@@ -192,11 +192,7 @@ bool finds(const ValidationReport& report, AgentIndex agent, ViolationKind kind)
   });
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("turning", [] {
   bool passed = true;
 
   passed &= property("every plan of robots with headings, delays and inflation is valid", [] {
@@ -415,5 +411,8 @@ int main() {
         finds(validate(plan_case.instance, solution, guarantees), stop.agent, ViolationKind::kStandingTime));
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::turning_laws

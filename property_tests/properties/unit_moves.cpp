@@ -18,11 +18,9 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/pebble_search.hpp"
 #include "property_tests/support/property.hpp"
+#include "property_tests/support/shown.hpp"
 
-namespace sipplab {
-
-void showValue(const Objective& objective, std::ostream& out) { out << format_objective(objective); }
-
+namespace sipplab::unit_moves_laws {
 namespace {
 
 /// Steps of LaCAM: far more than the cases here take.
@@ -134,11 +132,7 @@ Trajectory trajectory_of(const Routes& plan, const Route& route, const Agent& ag
   return trajectory;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("unit_moves", [] {
   bool passed = true;
 
   passed &= property("improve_unit_moves (1): never worse than what it was given, and as it says", [] {
@@ -211,5 +205,8 @@ int main() {
     RC_ASSERT(seconds(arrival, agent) <= exact->arrival_s() + tolerance_s);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::unit_moves_laws

@@ -18,7 +18,7 @@
 #include "property_tests/support/sampling_oracle.hpp"
 #include "sipplab/options.hpp"
 
-namespace sipplab {
+namespace sipplab::validator_laws {
 namespace {
 
 constexpr double kSampleStepS = 1.0 / 64;
@@ -229,11 +229,7 @@ void agrees_on_protected_starts(const Scene& scene, double ssi_s) {
   RC_CLASSIFY(any_violated, "intrusions");
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("validator", [] {
   bool passed = true;
 
   passed &= property("conflicts and clearance agree with sampling all pairs at many times",
@@ -303,5 +299,8 @@ int main() {
     RC_ASSERT(kinds_of(report_of(without_agent(scene, gone), ssi_s)) == expected);
   });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::validator_laws

@@ -22,7 +22,7 @@
 #include "property_tests/support/histories.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab::bench {
+namespace sipplab::bench::verdicts_laws {
 namespace {
 
 using db::any_flag;
@@ -31,7 +31,7 @@ using db::ResultRow;
 using db::ResultStatus;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kFewer = (SIPPLAB_PROPERTY_CASES + 1) / 2;
+constexpr int kFewer = (kCasesOfHistories + 1) / 2;
 
 bool close(double a, double b) {
   return a == b || std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)});
@@ -895,12 +895,7 @@ void reports_say_what_was_judged() {
                         "\"") == 1U);
 }
 
-}  // namespace
-}  // namespace sipplab::bench
-
-int main() {
-  using namespace sipplab;
-  using namespace sipplab::bench;
+const PropertyRoom room("verdicts", kCasesOfHistories, [] {
   bool passed = true;
 
   passed &= property("Holm's p values are those of closed testing", many_tests_are_closed);
@@ -909,7 +904,7 @@ int main() {
                      spreads_are_as_defined);
   passed &= property("what is detectable solves its equations", what_is_detectable_solves_its_equations);
   passed &= property("a slowdown that a gate calls detectable is found 19 times of 20",
-                     what_a_gate_sees_it_finds, (SIPPLAB_PROPERTY_CASES + 39) / 40);
+                     what_a_gate_sees_it_finds, (kCasesOfHistories + 39) / 40);
   passed &= property("a change is called after the gravest that differs", changes_are_told_by_what_differs);
   passed &= property("every planning is counted once, and is in one finding if it differs",
                      everything_is_counted, kFewer);
@@ -920,5 +915,8 @@ int main() {
   passed &= property("a gate suspects by its pairs and confirms by fresh ones", looks_of_a_gate);
   passed &= property("reports say what was judged", reports_say_what_was_judged, kFewer);
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::bench::verdicts_laws

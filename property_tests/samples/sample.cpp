@@ -6,7 +6,7 @@
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
 
-namespace sipplab {
+namespace sipplab::sample_laws {
 namespace {
 
 /// A wish, not a law: with it, plans of two robots are counterexamples.
@@ -15,11 +15,7 @@ bool one_robot_at_most(const PlanCase& plan_case) {
   return result.status != PlanStatus::kSolved || plan_case.instance.agents.size() < 2;
 }
 
-}  // namespace
-}  // namespace sipplab
-
-int main() {
-  using namespace sipplab;
+const PropertyRoom room("sample", [] {
   bool passed = true;
 
   passed &= property("every number is odd or even", [] {
@@ -45,5 +41,8 @@ int main() {
 
   passed &= property("numbers that do not exist are small", [] { RC_PRE(*rc::gen::inRange(0, 2) > 2); });
 
-  return passed ? 0 : 1;
-}
+  return passed;
+});
+
+}  // namespace
+}  // namespace sipplab::sample_laws

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -27,6 +28,20 @@ using rc::detail::CaseResult;
 using rc::detail::Example;
 using rc::detail::FailureResult;
 using rc::detail::Reproduce;
+
+struct Room {
+  int cases;
+  bool (*run)();
+};
+
+/// By name; filled before main begins.
+std::map<std::string, Room>& rooms() {
+  static std::map<std::string, Room> all;
+  return all;
+}
+
+/// The one that runs.
+std::string current_room;
 
 /// What note_case said since the last case ended.
 std::optional<PlanCase> noted_case;
@@ -155,7 +170,7 @@ void print_summary(const db::PropertyRun& record) {
   if (record.status != "failed") return;
   if (!record.plan_case.empty()) std::cerr << "the case that was planned:\n" << record.plan_case;
   std::cerr << "shrunk in " << record.shrinks << " steps; to try the counterexample again:\n  RC_PARAMS=\""
-            << record.reproduce << "\" property_" << record.room << '\n';
+            << record.reproduce << "\" properties " << record.room << '\n';
 }
 
 /// Appends the record to the log, if there is one. False if that fails.
@@ -189,7 +204,7 @@ bool met_reproduced = false;
 
 void end_where_none_was_met() {
   if (met_reproduced) return;
-  std::cerr << "no property of this program is the one that is to be reproduced\n";
+  std::cerr << "no property of this room is the one that is to be reproduced\n";
   std::_Exit(bench::kNoSuchProperty);
 }
 
@@ -197,9 +212,24 @@ void end_where_none_was_met() {
 
 void note_case(const PlanCase& plan_case) { noted_case = plan_case; }
 
-bool run_property(const std::string& room, int cases, const std::string& title,
-                  const rc::detail::Property& property) {
-  const rc::detail::Configuration configuration = configured(cases);
+PropertyRoom::PropertyRoom(const char* name, int cases, bool (*run)()) {
+  rooms().emplace(name, Room{cases, run});
+}
+
+int run_room(std::span<const char* const> arguments) {
+  const auto room = arguments.size() == 1 ? rooms().find(arguments.front()) : rooms().end();
+  if (room == rooms().end()) {
+    std::cerr << "usage: properties ROOM, expected one of";
+    for (const auto& [name, ignored] : rooms()) std::cerr << ' ' << name;
+    std::cerr << '\n';
+    return 2;
+  }
+  current_room = room->first;
+  return room->second.run() ? 0 : 1;
+}
+
+bool run_property(std::optional<int> cases, const std::string& title, const rc::detail::Property& property) {
+  const auto configuration = configured(cases ? *cases : rooms().at(current_room).cases);
   const auto reproduce = configuration.reproduce.find(title);
   if (!configuration.reproduce.empty()) {
     [[maybe_unused]] static const int registered = std::atexit(end_where_none_was_met);
@@ -212,7 +242,7 @@ bool run_property(const std::string& room, int cases, const std::string& title,
   db::PropertyRun record;
   record.uuid = db::new_uuid();
   record.started_utc = db::utc_now();
-  record.room = room;
+  record.room = current_room;
   record.title = title;
   record.seed = configuration.testParams.seed;
   record.max_success = configuration.testParams.maxSuccess;

@@ -4,23 +4,33 @@
 
 #include <rapidcheck.h>
 
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "planner/io/plan_case.hpp"
 
-// Set for each program by property_tests/CMakeLists.txt.
-#ifndef SIPPLAB_PROPERTY_ROOM
-#define SIPPLAB_PROPERTY_ROOM ""
-#define SIPPLAB_PROPERTY_CASES 1000
-#endif
-
 namespace sipplab {
 
+// Cases of a property that does not say how many, if RC_PARAMS does not. property_tests/CMakeLists.txt sets
+// the share.
+inline constexpr int kCasesOfWorlds = 1000 / SIPPLAB_SHARE_OF_CASES;
+/// Each opens files and migrates them, which takes 5 to 35 ms.
+inline constexpr int kCasesOfHistories = 200 / SIPPLAB_SHARE_OF_CASES;
+
+/// The properties of one file, run by `properties NAME`. Registers itself; `run` says whether all held.
+class PropertyRoom {
+ public:
+  PropertyRoom(const char* name, bool (*run)()) : PropertyRoom(name, kCasesOfWorlds, run) {}
+  PropertyRoom(const char* name, int cases, bool (*run)());
+};
+
+/// Runs the room that `arguments` name: 0 if all of it held, 1 if not, 2 if there is no such room.
+int run_room(std::span<const char* const> arguments);
+
 /// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
-/// `cases` are tried if RC_PARAMS names no number.
-bool run_property(const std::string& room, int cases, const std::string& title,
-                  const rc::detail::Property& property);
+bool run_property(std::optional<int> cases, const std::string& title, const rc::detail::Property& property);
 
 /// Checks a property with the parameters of RC_PARAMS and prints how it went: cases,
 /// the share of each class, and for a failure the smallest counterexample with the
@@ -32,10 +42,11 @@ bool run_property(const std::string& room, int cases, const std::string& title,
 /// With "reproduce=..." in RC_PARAMS, only the counterexamples that it holds are tried:
 /// nothing is drawn or logged, and properties that it does not name hold. A program that has
 /// none of those that are named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
+///
+/// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty.
 template <class Testable>
-bool property(const std::string& title, Testable&& testable, int cases = SIPPLAB_PROPERTY_CASES) {
-  return run_property(SIPPLAB_PROPERTY_ROOM, cases, title,
-                      rc::detail::toProperty(std::forward<Testable>(testable)));
+bool property(const std::string& title, Testable&& testable, std::optional<int> cases = std::nullopt) {
+  return run_property(cases, title, rc::detail::toProperty(std::forward<Testable>(testable)));
 }
 
 /// What `make` draws, at full size from the first case on: a hundred cases say as much as the last hundred of
