@@ -82,6 +82,10 @@ std::string solution_to_csv(const Instance& instance, const SolutionDocument& do
   return out;
 }
 
+namespace {
+
+bool is_csv(std::string_view head) { return head.substr(0, 5) == "agent"; }
+
 Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::string& file_name,
                                            const Instance& instance) {
   const auto error = [&file_name](int line, std::string what, std::string expected) {
@@ -131,6 +135,12 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     if (!is_first || !states_place(*motion)) trajectory.motions.push_back(*motion);
   }
   return document;
+}
+
+}  // namespace
+
+SolutionFormat csv_format() {
+  return {"csv", "CSV of this program", is_csv, parse_solution_csv, always<solution_to_csv>};
 }
 
 }  // namespace sipplab

@@ -199,6 +199,12 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
   return file_text(file);
 }
 
+namespace {
+
+bool is_xml(std::string_view head) {
+  return head.substr(0, 1) == "<" || head.substr(0, 4) == "\xef\xbb\xbf<";
+}
+
 Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,
                                            const Instance& instance) {
   Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
@@ -215,6 +221,12 @@ Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::str
   if (!reader.failed()) read_trajectories(reader, log, instance, document);
   if (reader.failed()) return Unexpected{reader.error()};
   return document;
+}
+
+}  // namespace
+
+SolutionFormat xml_format() {
+  return {"xml", "XML in the style of AA-SIPP(m)'s log", is_xml, parse_solution_xml, always<solution_to_xml>};
 }
 
 }  // namespace sipplab
