@@ -3,15 +3,11 @@
 # line per promise that is broken.
 #
 #   golden_property.sh PATH_OF_SIPPLAB PATH_OF_PROPERTY_SAMPLE
-set -uo pipefail
+sample=$(realpath "$2")
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 # As in a build folder: sipplab, and the programs of the properties below it.
-install -D -m 755 "$1" "$work/sipplab"
-install -D -m 755 "$2" "$work/property_tests/property_sample"
-cd "$work" || exit 1
+install -m 755 "$sipplab" sipplab
+install -D -m 755 "$sample" property_tests/property_sample
 unset RC_PARAMS SIPPLAB_PROPERTY_LOG
 
 # prints TEXT [FILE]: the text as it stands, not a pattern.
