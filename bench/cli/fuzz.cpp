@@ -131,7 +131,7 @@ int run_hardest(const FuzzArguments& arguments) {
 
 CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
   CLI::App* run = arguments.history.add_command(
-      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 where a target did not run");
+      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 if a target did not run");
   bench::CampaignOptions& campaign = arguments.campaign;
   run->add_option("--programs", arguments.programs, "folder of the targets' programs")->capture_default_str();
   run->add_option("--sources", arguments.sources, "folder with corpus/, regressions/ and dictionaries/")

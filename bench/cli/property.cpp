@@ -225,7 +225,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* replay =
       arguments->history.add_command(*property, "replay",
                                      "try a counterexample again; exit code 1 if it still fails, 0 if "
-                                     "it holds, 3 if its program is not there");
+                                     "it holds, 3 if its program is missing");
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");
