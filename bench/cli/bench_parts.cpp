@@ -199,7 +199,7 @@ std::vector<CLI::Option*> add_part_flags(CLI::App& command, BenchArguments& argu
                              ->excludes(tasks)
                              ->check(CLI::PositiveNumber)
                              ->capture_default_str();
-  // Of `sipplab task run`: no user's business.
+  // Internal: given by `sipplab task run`.
   command.add_option("--task-of", arguments.task, "")->needs(shard)->group("");
   return {shard, sweep, resume, plan, tasks, seconds};
 }
