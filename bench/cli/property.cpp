@@ -215,7 +215,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   totals->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
 
   CLI::App* list = arguments->history.add_command(*property, "list", "the newest run of each property");
-  list->add_option("--room", arguments->room, "only properties of this program");
+  list->add_option("--program,--room", arguments->room, "only properties of this program");
   list->add_flag("--failed", arguments->failed, "only failures and crashes");
   list->add_flag("--all", arguments->all, "every run, newest first, including those with planted bugs");
   list->add_option("--limit", arguments->limit, "most rows to show; 0: all")->capture_default_str();

@@ -143,7 +143,7 @@ void add_solver_flags(CLI::App& command, SolversArguments& arguments) {
       ->type_name("CMD");
   command.add_option("--instances", arguments.folders, "sweep the instances of these folders as well")
       ->type_name("DIR");
-  command.add_flag("--no-suite", arguments.no_suite, "and nothing else");
+  command.add_flag("--no-suite", arguments.no_suite, "leave out the suite `solvers`");
   command.add_option("--robots", sweep.robots, "only these numbers of robots: 64,128")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
