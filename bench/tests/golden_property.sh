@@ -103,7 +103,7 @@ printf '#!/bin/sh\nexit 0\n' >property_tests/property_sample
 runs 0 ./sipplab property replay "$id" --db history.db
 prints 'property  holds now'
 # Renamed: a program without it does not mend it.
-cp "$(dirname "$2")/property_open_list" property_tests/property_sample
+cp "$(dirname "$sample")/property_open_list" property_tests/property_sample
 runs 3 ./sipplab property replay "$number" --db history.db
 prints 'not run'
 # Its program is gone: nobody can say whether it holds, whatever becomes of the plan.
