@@ -48,4 +48,4 @@ for command in $commands; do
     esac
   done
 done
-echo 'manual and completion: all commands and flags'
+echo 'manual and completion: all that --help has'

@@ -180,27 +180,6 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
   document.solution = collector.take();
 }
 
-}  // namespace
-
-std::string solution_to_xml(const Instance& instance, const SolutionDocument& document) {
-  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
-  PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
-  pugi::xml_document file;
-  xml_node root = file.append_child("root");
-  add_instance(root, instance);
-  if (document.options) add_options(root, *document.options);
-  xml_node log = root.append_child("log");
-  add_summary(log, instance, document);
-  add_order(log, document.order);
-  const bool with_headings = has_turns(document.solution);
-  for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    add_trajectory(log, instance.agents[i], trajectories[i], with_headings);
-  }
-  return file_text(file);
-}
-
-namespace {
-
 bool is_xml(std::string_view head) {
   return head.substr(0, 1) == "<" || head.substr(0, 4) == "\xef\xbb\xbf<";
 }
@@ -224,6 +203,23 @@ Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::str
 }
 
 }  // namespace
+
+std::string solution_to_xml(const Instance& instance, const SolutionDocument& document) {
+  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
+  PLANNER_ASSERT(trajectories.empty() || trajectories.size() == instance.agents.size());
+  pugi::xml_document file;
+  xml_node root = file.append_child("root");
+  add_instance(root, instance);
+  if (document.options) add_options(root, *document.options);
+  xml_node log = root.append_child("log");
+  add_summary(log, instance, document);
+  add_order(log, document.order);
+  const bool with_headings = has_turns(document.solution);
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    add_trajectory(log, instance.agents[i], trajectories[i], with_headings);
+  }
+  return file_text(file);
+}
 
 SolutionFormat xml_format() {
   return {"xml", "XML in the style of AA-SIPP(m)'s log", is_xml, parse_solution_xml, always<solution_to_xml>};
