@@ -1,4 +1,4 @@
-// Text in columns, for the reports of every room.
+// Text in columns, for all reports.
 #pragma once
 
 #include <string>

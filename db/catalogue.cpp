@@ -39,7 +39,7 @@ ViewDescription read_view(const std::string& heading, std::istream& lines) {
 const std::vector<ViewDescription>& view_catalogue() {
   static const std::vector<ViewDescription> catalogue = [] {
     std::vector<ViewDescription> views;
-    std::istringstream lines{std::string(schema_document())};
+    std::istringstream lines{std::string(schema_document().front().text)};
     for (std::string line; std::getline(lines, line);) {
       if (line.rfind(kHeading, 0) == 0) views.push_back(read_view(line, lines));
     }

@@ -1,9 +1,11 @@
 // The public views in words, taken from schema.md when the program is built.
 #pragma once
 
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "db/embedded_text.hpp"
 
 namespace sipplab::db {
 
@@ -17,7 +19,7 @@ struct ViewDescription {
 /// In the order of schema.md.
 const std::vector<ViewDescription>& view_catalogue();
 
-/// The whole of schema.md.
-std::string_view schema_document();
+/// The whole of schema.md, as the one text.
+std::span<const EmbeddedText> schema_document();
 
 }  // namespace sipplab::db

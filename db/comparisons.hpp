@@ -39,7 +39,7 @@ struct PairedResult {
 
 struct PairedCell {
   CaseInfo parameters;  ///< of the head
-  /// Where the base has another case, the planner there; else empty.
+  /// The planner of the base if its case is another; else empty.
   std::string base_planner;
   std::string base_run;  ///< UUID
   std::string head_run;

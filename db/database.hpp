@@ -19,7 +19,7 @@ std::filesystem::path database_path(const std::optional<std::string>& option);
 /// How a writer keeps a transaction that is killed from leaving half of it.
 enum class Journal {
   kWriteAhead,  ///< readers and writers beside each other, on one machine: the log is shared in memory
-  kRollback,    ///< one file after each transaction, on network file systems too where they have locks
+  kRollback,    ///< one file after each transaction, also on network file systems that have locks
 };
 
 /// An open history. Its schema is the one of this program.
@@ -46,7 +46,7 @@ class Database {
 
  private:
   /// SQLite makes a log even to read, and only a connection that may write takes it away again, as the last
-  /// one that closes. Does so when it is destroyed, where the log is empty.
+  /// one that closes. Does so when it is destroyed, if the log is empty.
   class LogSweeper {
    public:
     explicit LogSweeper(std::filesystem::path path) : path_(std::move(path)) {}

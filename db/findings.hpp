@@ -74,7 +74,7 @@ struct StoredFinding {
 Result<StoredFinding> record_finding(Database& database, const RunOrigin& origin, const Finding& finding,
                                      std::optional<std::int64_t> fuzz_run, const std::string& now_utc);
 
-/// Takes the minimal input of a finding with this signature where it is smaller than the stored one.
+/// Takes the minimal input of a finding with this signature if it is smaller than the stored one.
 Result<StoredFinding> record_minimal(Database& database, std::int64_t id, const Finding& finding);
 
 /// Notes what replaying its minimal input gave: it breaks as before, or it holds.

@@ -3,6 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
+#include <vector>
+
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
 
@@ -54,7 +57,21 @@ Result<Done> apply(sqlite::Connection& connection, const Migration& step) {
   return transaction.commit();
 }
 
+std::vector<Migration> numbered(std::span<const EmbeddedText> files) {
+  std::vector<Migration> steps;
+  for (const auto& [name, sql] : files) {
+    Migration& step = steps.emplace_back(Migration{0, name, sql});
+    std::from_chars(name.data(), name.data() + name.size(), step.version);  // "0009_initial"
+  }
+  return steps;
+}
+
 }  // namespace
+
+std::span<const Migration> migrations() {
+  static const std::vector<Migration> steps = numbered(migration_files());
+  return steps;
+}
 
 Result<SchemaState> inspect(sqlite::Connection& connection, std::span<const Migration> steps) {
   // One statement, so that a schema made by another process meanwhile is seen whole.

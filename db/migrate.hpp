@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "db/embedded_text.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/error.hpp"
 
@@ -14,7 +15,7 @@ namespace sipplab::db {
 /// databases of other programs: "SIPP" in ASCII.
 inline constexpr std::int64_t kApplicationId = 0x53495050;
 
-/// One file of db/migrations, embedded at build time.
+/// One file of db/migrations.
 struct Migration {
   int version;  ///< user_version after it
   std::string_view name;
@@ -24,6 +25,9 @@ struct Migration {
 /// All of them, by version without gaps. The first creates the schema of the first release,
 /// and nothing older is read.
 std::span<const Migration> migrations();
+
+/// The files, by name.
+std::span<const EmbeddedText> migration_files();
 
 /// What the header of a file says, before anything is changed.
 struct SchemaState {

@@ -38,12 +38,12 @@ Result<std::optional<std::string>> find_other_command(Database& database, const 
 
 /// The run that `info` continues: same suite, options and build; the one of info.uuid, where that is empty
 /// one that was recorded here and is not excluded, the newest that is not finished, else the newest. Where
-/// `run` is given (as resolve_run takes it), that one, wherever it was recorded; an error where it is of
+/// `run` is given (as resolve_run takes it), that one, wherever it was recorded; an error if it is of
 /// another suite, with other options or of another build.
 Result<std::optional<EarlierRun>> find_earlier_run(Database& database, const RunInfo& info,
                                                    const std::optional<std::string>& run = {});
 
-/// What to say where a run of that id is there and nobody asked to resume it.
+/// The error if there is a run of that id and it is not resumed.
 Error run_is_there(const Database& database, const std::string& uuid);
 
 /// What a run holds, case by case in the order in which they were begun.
@@ -60,12 +60,12 @@ Result<std::vector<RecordedCase>> recorded_cases(Database& database, const std::
 /// Not for use by two threads at once; other processes may write to the same file.
 class RunRecorder {
  public:
-  /// Writes the row of a new run with the status "running", and of its first attempt. An error where the
+  /// Writes the row of a new run with the status "running", and of its first attempt. An error if the
   /// file holds a run of info.uuid.
   static Result<RunRecorder> begin(Database database, const RunInfo& info);
 
   /// Takes up a run under its own UUID, as a new attempt. From then on a process that still wrote to
-  /// it gets an error, so that a run has one writer. An error where the run is excluded, or its writer is
+  /// it gets an error, so that a run has one writer. An error if the run is excluded, or its writer is
   /// another process of this machine that is alive.
   static Result<RunRecorder> resume(Database database, const std::string& run_uuid, const RunInfo& info);
 

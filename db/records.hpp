@@ -170,7 +170,7 @@ struct ProgressRow {
   double makespan_bound_s = 0;
 };
 
-/// A plan as it was given, where the result is of the same paths and orders with other times.
+/// A plan as it was given, if the result is of the same paths and orders with other times.
 struct RetimingRow {
   bool executable = true;  ///< false: no times exist for these paths and orders
   bool given_valid = false;
@@ -213,8 +213,8 @@ struct ResultRow {
   std::optional<double> flowtime_bound_s;
   std::optional<double> makespan_bound_s;
   std::vector<ProgressRow> progress = {};    ///< of improvement, in order of time; else empty
-  std::optional<RetimingRow> retiming = {};  ///< where the plan was re-timed
-  /// What another program says of its run, by its own names: nobody checked that.
+  std::optional<RetimingRow> retiming = {};  ///< if the plan was re-timed
+  /// What another program says of its run, under its own names: unchecked.
   std::vector<std::pair<std::string, double>> reported = {};
 };
 

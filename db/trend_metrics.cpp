@@ -77,7 +77,7 @@ std::vector<TrendMetric> make_metrics() {
        kWorkEffect, false, of_fuzz_runs("edges")},
       {"benchmark-time", "wall clock of one iteration of imported benchmarks", "s", false, true, false,
        kTimeEffect, false, kBenchmarks},
-      {"fuzz-coverage", "share of lines that fuzzing reached, by room", "", true, false, false, kRateEffect,
+      {"fuzz-coverage", "share of lines that fuzzing reached, by folder", "", true, false, false, kRateEffect,
        true, kCoverage},
   };
 }

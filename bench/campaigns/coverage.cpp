@@ -5,7 +5,7 @@
 namespace sipplab::bench {
 namespace {
 
-constexpr std::string_view kRoom = "/planner/";
+constexpr std::string_view kFolder = "/planner/";
 
 }  // namespace
 
@@ -23,11 +23,11 @@ Expected<std::vector<db::FileCoverage>, std::string> parse_coverage(std::string_
       if (!data.is_object() || !data.contains("files") || !data["files"].is_array()) return expected();
       for (const nlohmann::json& file : data["files"]) {
         const std::string path = file.value("filename", "");
-        const std::size_t room = path.rfind(kRoom);
-        if (room == std::string::npos) continue;
+        const std::size_t folder = path.rfind(kFolder);
+        if (folder == std::string::npos) continue;
         const nlohmann::json lines =
             file.value("summary", nlohmann::json::object()).value("lines", nlohmann::json::object());
-        files.push_back({path.substr(room + 1), lines.value("count", std::int64_t{0}),
+        files.push_back({path.substr(folder + 1), lines.value("count", std::int64_t{0}),
                          lines.value("covered", std::int64_t{0})});
       }
     }

@@ -42,7 +42,7 @@ class TargetProgram {
 
   InputVerdict judge(const std::string& input) const;
   /// The smallest input that breaks the same and was found within some seconds, or before the user wanted to
-  /// end; the input itself where there is none. `tell` hears of it meanwhile.
+  /// end; the input itself if there is none. `tell` hears of it meanwhile.
   std::string reduce(const std::string& input, double limit_s, const Teller& tell) const;
 
  private:

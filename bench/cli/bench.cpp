@@ -260,32 +260,34 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
 
 namespace {
 
-std::string suite_names() {
-  std::string text;
+/// A line for each suite.
+std::string list_of_suites() {
+  std::string text = "Suites:\n";
   for (const bench::Suite& suite : bench::suites()) {
-    text += (text.empty() ? "" : "; ") + suite.name + ": " + suite.purpose;
+    text += fmt::format("  {:<14}{}\n", suite.name, suite.purpose);
   }
   return text;
 }
 
 void add_flags(CLI::App& command, BenchArguments& arguments) {
-  CLI::Option* suite = command.add_option("--suite", arguments.suite, suite_names())
-                           ->check([](const std::string& text) {
-                             std::string names;
-                             for (const bench::Suite& known : bench::suites()) {
-                               if (known.name == text) return std::string();
-                               names +=
-                                   (names.empty() ? ", expected one of " : ", ") + std::string(known.name);
-                             }
-                             return in_quotes(text) + names;
-                           })
-                           ->capture_default_str();
+  CLI::Option* suite =
+      command.add_option("--suite", arguments.suite, "suite to run; all suites are listed below")
+          ->check([](const std::string& text) {
+            std::string names;
+            for (const bench::Suite& known : bench::suites()) {
+              if (known.name == text) return std::string();
+              names += (names.empty() ? ", expected one of " : ", ") + std::string(known.name);
+            }
+            return in_quotes(text) + names;
+          })
+          ->capture_default_str();
   CLI::Option* folders =
       command.add_option("--instances", arguments.folders, "sweep the instances of a folder instead")
           ->excludes(suite)
           ->type_name("DIR");
   command
-      .add_flag("--strict", arguments.strict, "refuse files of such a folder that are no instances, or equal")
+      .add_flag("--strict", arguments.strict,
+                "refuse a folder with files that are no instances or equal others")
       ->needs(folders);
   add_values(command, "--radius", arguments.radii,
              "radius in cells of robots in MovingAI files and the suite");
@@ -301,7 +303,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   CLI::Option* planner =
       command
           .add_option("--planner", arguments.planner,
-                      "another program plans: NAME:PATH, as `sipplab planners` lists them, or "
+                      "plan with another program: NAME:PATH, as `sipplab planners` lists them, or "
                       "'cmd:PROGRAM {task} {map} {config} {out}'")
           ->check([](const std::string& text) {
             const auto spec = bench::parse_command_planner(text, "");
@@ -310,21 +312,22 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
           ->type_name("CMD");
   command
       .add_option("--planner-name", arguments.planner_name,
-                  "its name in the history instead of its program's")
+                  "its name in the history; default: that of its program")
       ->needs(planner)
       ->type_name("NAME");
   command
       .add_option("--memory-limit", arguments.memory_limit_mib,
-                  "MiB that the program may hold in memory, with all it starts")
+                  "memory limit in MiB for the program and all that it starts")
       ->needs(planner)
       ->check(CLI::Range(std::uint64_t{16}, std::uint64_t{1} << 30))
       ->capture_default_str();
   command
       .add_option(
           "--rounding", arguments.rounding,
-          fmt::format("cells of overlap, and seconds of a duration, that are the rounding of its files; "
-                      "default {}",
-                      bench::kDefaultRounding))
+          fmt::format(
+              "rounding error of its files to tolerate, in cells of overlap and seconds of a duration; "
+              "default {}",
+              bench::kDefaultRounding))
       ->needs(planner)
       ->check(check_positive_real)
       ->check(real_between(0, bench::kMaxRounding))
@@ -332,7 +335,7 @@ void add_flags(CLI::App& command, BenchArguments& arguments) {
   add_solution_format(command, arguments.solution_format)->needs(planner);
   command.add_flag("--retime", arguments.retime,
                    "judge plans with the earliest times for their paths and orders; keeps both");
-  command.add_option("--seed", arguments.seed, "of instances and random orders")
+  command.add_option("--seed", arguments.seed, "seed of instances and random orders")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   arguments.options.add_to(
@@ -352,9 +355,9 @@ Command add_bench_command(CLI::App& program, const Invocation& invocation) {
   arguments->invocation = invocation;
   CLI::App* command = program.add_subcommand("bench", "run a suite of cases and record it in the history");
   command->allow_extras();
-  command->footer(
-      "All --benchmark_* flags of Google Benchmark work as well: --benchmark_filter=REGEX,\n"
-      "--benchmark_list_tests, --benchmark_format=json, --benchmark_out=FILE, ...");
+  command->footer(list_of_suites() +
+                  "All --benchmark_* flags of Google Benchmark work as well: --benchmark_filter=REGEX,\n"
+                  "--benchmark_list_tests, --benchmark_format=json, --benchmark_out=FILE, ...");
   add_flags(*command, *arguments);
   return {command, [arguments, command] { return run_bench(*arguments, command->remaining()); }};
 }

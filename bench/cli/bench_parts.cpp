@@ -175,32 +175,31 @@ std::vector<CLI::Option*> add_part_flags(CLI::App& command, BenchArguments& argu
           ->type_name("I/N");
   CLI::Option* sweep = command
                            .add_option("--sweep", arguments.sweep,
-                                       "the run's id, or any word: shards with the same one belong together")
+                                       "the run's id, or any word; shards with the same one form one run")
                            ->type_name("ID");
-  CLI::Option* resume =
-      command
-          .add_option("--resume", arguments.resumed_run,
-                      "do only what is missing of RUN; default: the last run of this command")
-          ->expected(0, 1)
-          ->type_name("[RUN]");
+  CLI::Option* resume = command
+                            .add_option("--resume", arguments.resumed_run,
+                                        "do only what RUN lacks; default: the last run of this command")
+                            ->expected(0, 1)
+                            ->type_name("[RUN]");
   arguments.resume = resume;
   CLI::Option* plan = command
                           .add_option("--plan-tasks", arguments.plan_tasks,
-                                      "plan nothing: split the sweep into tasks of a job array, in DIR")
+                                      "only split the sweep into tasks of a job array, in DIR")
                           ->excludes(shard)
                           ->excludes(resume)
                           ->type_name("DIR");
-  CLI::Option* tasks = command.add_option("--tasks", arguments.tasks, "how many")
+  CLI::Option* tasks = command.add_option("--tasks", arguments.tasks, "number of tasks")
                            ->needs(plan)
                            ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   CLI::Option* seconds = command
                              .add_option("--seconds-per-task", arguments.seconds_per_task,
-                                         "what each is expected to take, at most 1000 tasks")
+                                         "expected duration of a task; makes at most 1000 tasks")
                              ->needs(plan)
                              ->excludes(tasks)
                              ->check(CLI::PositiveNumber)
                              ->capture_default_str();
-  // Of `sipplab task run`: no user's business.
+  // Internal: given by `sipplab task run`.
   command.add_option("--task-of", arguments.task, "")->needs(shard)->group("");
   return {shard, sweep, resume, plan, tasks, seconds};
 }

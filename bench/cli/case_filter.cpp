@@ -40,7 +40,7 @@ bool set(db::CaseFilter& filter, std::string_view key, const std::string& text) 
 void add_case_flag(CLI::App& command, std::vector<std::string>& parts) {
   command
       .add_option("--case", parts,
-                  "number of a case, or what it has: robots=64,ssi=3,environment=warehouse; also map, "
+                  "number of a case, or its values: robots=64,ssi=3,environment=warehouse; also map, "
                   "planner=cmd:NAME, and every option of the planner, weight=1.05,turns=yes")
       ->delimiter(',')
       ->type_name("CASE");

@@ -63,6 +63,9 @@ void add_options(const CLI::App& command, std::string& page) {
 void add_command(const CLI::App& command, std::string& page) {
   page += ".SS " + troff(full_name(command)) + "\n" + paragraphs(command.get_description());
   add_options(command, page);
+  if (const std::string footer = command.get_footer(); !footer.empty()) {
+    page += ".PP\n.nf\n" + troff(footer) + "\n.fi\n";  // its lines are laid out: lists, columns
+  }
   for (const CLI::App* inner : commands_of(command)) add_command(*inner, page);
 }
 

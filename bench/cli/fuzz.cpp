@@ -131,22 +131,23 @@ int run_hardest(const FuzzArguments& arguments) {
 
 CLI::App* add_run(CLI::App& fuzz, FuzzArguments& arguments) {
   CLI::App* run = arguments.history.add_command(
-      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 where a target did not run");
+      fuzz, "run", "run fuzz targets; exit code 1 with findings, 3 if a target did not run");
   bench::CampaignOptions& campaign = arguments.campaign;
   run->add_option("--programs", arguments.programs, "folder of the targets' programs")->capture_default_str();
   run->add_option("--sources", arguments.sources, "folder with corpus/, regressions/ and dictionaries/")
       ->capture_default_str();
   run->add_option("--work", arguments.work, "folder where corpora grow, with logs and pictures of findings")
       ->capture_default_str();
-  run->add_option("--mode", campaign.mode,
-                  "smoke: the same inputs each time; for; nightly: several processes")
+  run->add_option(
+         "--mode", campaign.mode,
+         "smoke: the same inputs each time; for: until the budget is used up; nightly: several processes")
       ->check(CLI::IsMember({"smoke", "for", "nightly"}))
       ->capture_default_str();
   run->add_option("--target", campaign.targets, "only these targets");
   run->add_option("--seconds", campaign.seconds, "budget, shared by all targets and by what they find")
       ->check(check_positive_real);
   run->add_option("--executions", campaign.executions, "budget of each target")->check(CLI::PositiveNumber);
-  run->add_option("--seed", campaign.seed, "of the engine")
+  run->add_option("--seed", campaign.seed, "seed of the engine")
       ->check(CLI::Range(1U, 4294967295U))
       ->capture_default_str();
   run->add_option("--workers", campaign.workers,
@@ -167,7 +168,7 @@ Command add_fuzz_command(CLI::App& program) {
   CLI::App* run = add_run(*fuzz, *arguments);
   CLI::App* list = arguments->history.add_command(*fuzz, "list", "runs of targets, newest first");
   list->add_option("--target", arguments->target, "only this target");
-  list->add_option("--limit", arguments->limit, "this many rows at most; 0: all")->capture_default_str();
+  list->add_option("--limit", arguments->limit, "most rows to show; 0: all")->capture_default_str();
   CLI::App* coverage = arguments->history.add_command(
       *fuzz, "coverage", "record the coverage of the newest campaign and print it");
   coverage->add_option("summary", arguments->summary, "what llvm-cov export -summary-only printed")
@@ -175,7 +176,8 @@ Command add_fuzz_command(CLI::App& program) {
   CLI::App* hardest = arguments->history.add_command(
       *fuzz, "hardest", "list the cases that need the most expansions per robot");
   hardest->add_option("folder", arguments->folders, "folders of cases")->required();
-  hardest->add_option("--keep", arguments->keep, "this many, of different kinds")->capture_default_str();
+  hardest->add_option("--keep", arguments->keep, "number of cases to keep, of different kinds")
+      ->capture_default_str();
   hardest->add_option("-o,--output", arguments->output, "write them there as 01.case, 02.case, ...")
       ->type_name("DIR");
 

@@ -155,10 +155,10 @@ Command add_generate_command(CLI::App& program) {
   command->add_option("--agents", arguments->agents, "robots in each instance")
       ->required()
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
-  command->add_option("--count", arguments->count, "how many instances")
+  command->add_option("--count", arguments->count, "number of instances")
       ->check(CLI::Range(std::uint64_t{1}, kMaxInstances))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of maps, starts and goals")
+  command->add_option("--seed", arguments->seed, "seed of maps, starts and goals")
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   add_values(*command, "--radius", arguments->radii, "cells; drawn from these for each robot; default 0.5");

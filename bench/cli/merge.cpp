@@ -68,7 +68,8 @@ Command add_merge_command(CLI::App& program) {
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");
   command->footer(
-      "Each file is one transaction. Runs are known by their UUID and keep the file that they came from.");
+      "Each file is one transaction. Runs are told apart by their UUID; each remembers the file it came "
+      "from.");
   return {command, [arguments] { return run_merge(*arguments); }};
 }
 

@@ -268,7 +268,7 @@ Command add_plan_command(CLI::App& program) {
       command->add_option("--solution", arguments->solution, "plan of another program, for --improve")
           ->type_name("FILE");
   add_solution_format(*command, arguments->solution_format)->needs(solution);
-  command->add_flag("--retime", arguments->retime, "give it the earliest times though it is valid")
+  command->add_flag("--retime", arguments->retime, "give it the earliest times even if it is valid")
       ->needs(solution);
   command->option_defaults()->group("Output");
   arguments->output.add_to(*command);

@@ -65,7 +65,7 @@ CLI::Option* add_solution_format(CLI::App& command, std::optional<std::string>& 
 
 /// Largest seed: the history keeps seeds as signed 64-bit integers.
 inline constexpr std::uint64_t kMaxSeed = INT64_MAX;
-/// Most robots that can be asked for: beyond, nobody waits for a plan, and memory ends first.
+/// Most robots that can be asked for; more than that do not fit into memory.
 inline constexpr std::size_t kMostRobots = 1'000'000;
 /// Checks for CLI11: empty when the text is right, else what was expected.
 std::string check_ssi(const std::string& text);

@@ -53,9 +53,9 @@ constexpr Picture kPictures[] = {
      [](const bench::PlotRequest& of) -> Drawn { return bench::cactus_chart(of); }},
     {"box-runtime", "box plots of planning time over robots", true, false,
      [](const bench::PlotRequest& of) -> Drawn { return bench::box_chart(of, Measure::kRuntimes); }},
-    {"box-flowtime", "of flowtime", true, false,
+    {"box-flowtime", "box plots of flowtime over robots", true, false,
      [](const bench::PlotRequest& of) -> Drawn { return bench::box_chart(of, Measure::kFlowtimes); }},
-    {"box-makespan", "of makespan", true, false,
+    {"box-makespan", "box plots of makespan over robots", true, false,
      [](const bench::PlotRequest& of) -> Drawn { return bench::box_chart(of, Measure::kMakespans); }},
     {"improvement", "mean gap of flowtime over time", false, true,
      [](const bench::PlotRequest& of) -> Drawn { return bench::improvement_chart(of); }},
@@ -143,21 +143,22 @@ Command add_plot_command(CLI::App& program) {
     names.emplace_back(picture.name);
     list(picture.name, picture.shows);
   }
-  list(kFigure, "of the paper: share solved over robots, a line for each start-safe interval");
-  list(kTable, "of the paper: seconds in the warehouse beside the paper's");
+  list(kFigure, "Figure 1 of the paper: share solved over robots, a line for each start-safe interval");
+  list(kTable, "Table 1 of the paper: seconds in the warehouse, beside the published ones");
   command->footer(
-      footer + "Times, flowtimes and makespans are of solved results; hollow: fewer than half are solved.");
+      footer +
+      "Times, flowtimes and makespans are of solved results. Hollow symbols: fewer than half are solved.");
   command->add_option("picture", arguments->kind, "what to draw")->required()->check(CLI::IsMember(names));
   command
       ->add_option("run,--run", arguments->runs,
-                   "UUID, its first four or more digits, or latest; several beside each other")
+                   "UUID, its first four or more digits, or latest; several are drawn side by side")
       ->capture_default_str();
   add_case_flag(*command, arguments->cases);
   command
       ->add_option(
           "--side", arguments->sides,
-          "of scatter, twice: what the cases of each side have, reschedule=none; default: two runs, or "
-          "what there is two of")
+          "for scatter, given twice: values of the cases on each side, such as reschedule=none; default: "
+          "two runs, or whatever has two values")
       ->type_name("CASE");
   command
       ->add_option("-o,--output", arguments->file,

@@ -215,7 +215,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   totals->add_option("log", arguments->log, "file that SIPPLAB_PROPERTY_LOG named")->required();
 
   CLI::App* list = arguments->history.add_command(*property, "list", "the newest run of each property");
-  list->add_option("--room", arguments->room, "only properties of this program");
+  list->add_option("--room", arguments->room, "only properties of this room");
   list->add_flag("--failed", arguments->failed, "only failures and crashes");
   list->add_flag("--all", arguments->all, "every run, newest first, including those with planted bugs");
   list->add_option("--limit", arguments->limit, "most rows to show; 0: all")->capture_default_str();
@@ -225,7 +225,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* replay =
       arguments->history.add_command(*property, "replay",
                                      "try a counterexample again; exit code 1 if it still fails, 0 if "
-                                     "it holds, 3 if its program is not there");
+                                     "it holds, 3 if its program is missing");
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");

@@ -10,7 +10,7 @@
 namespace sipplab::cli {
 namespace {
 
-/// Other plans that nobody expects fail, also where it is unclear whether they are worse.
+/// Unexpected other plans fail, even if it is unclear whether they are worse.
 int exit_code(const bench::Judged& all, bool expects_changes) {
   if (all.verdict == bench::Verdict::kRegressed) return kNegativeVerdict;
   if (all.other_plans > 0 && !expects_changes) return kChangedPlans;

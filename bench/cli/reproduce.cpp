@@ -143,7 +143,7 @@ void add_solver_flags(CLI::App& command, SolversArguments& arguments) {
       ->type_name("CMD");
   command.add_option("--instances", arguments.folders, "sweep the instances of these folders as well")
       ->type_name("DIR");
-  command.add_flag("--no-suite", arguments.no_suite, "and nothing else");
+  command.add_flag("--no-suite", arguments.no_suite, "leave out the suite `solvers`");
   command.add_option("--robots", sweep.robots, "only these numbers of robots: 64,128")
       ->delimiter(',')
       ->check(CLI::Range(std::size_t{0}, kMostRobots));
@@ -153,8 +153,7 @@ void add_solver_flags(CLI::App& command, SolversArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, kMaxSeed))
       ->capture_default_str();
   sweep.options.add(command, *find_option("time-limit"));
-  sweep.resume =
-      command.add_flag("--resume")->description("do only what is missing of runs that were stopped");
+  sweep.resume = command.add_flag("--resume")->description("continue runs that were stopped");
   command.add_option("-o,--output", arguments.folder, "write index.html and pictures there")
       ->type_name("DIR");
   add_database_flag(command, sweep.database);
@@ -176,7 +175,7 @@ Command add_reproduce_command(CLI::App& program, const Invocation& invocation) {
   auto solvers = std::make_shared<SolversArguments>();
   solvers->sweep.invocation = invocation;
   CLI::App* side_by_side = reproduce->add_subcommand(
-      "solvers", "planners of `sipplab planners` side by side, their plans re-timed; this one first");
+      "solvers", "this planner and those of `sipplab planners` side by side, their plans re-timed");
   add_solver_flags(*side_by_side, *solvers);
   return {reproduce, [arguments, solvers, side_by_side] {
             return side_by_side->parsed() ? run_reproduce_solvers(*solvers) : run_reproduce(*arguments);

@@ -92,7 +92,7 @@ Command add_retime_command(CLI::App& program) {
   arguments->motion.add_to(*command, {OptionGroup::kMotion});
   arguments->output.add_to(*command);
   command->add_flag("--json", arguments->json, "print it as one JSON document");
-  command->footer("Robots keep their paths, and who goes first wherever two of them meet.");
+  command->footer("Robots keep their paths. Where two paths meet, the same robot goes first.");
   return {command, [arguments] { return run_retime(*arguments); }};
 }
 

@@ -85,7 +85,7 @@ bool is_same_file(const NamedFile& a, const NamedFile& b) {
     // Folders keep both; streams such as /dev/null may be written as often as one likes.
     return fs::is_regular_file(a.path, error) && fs::equivalent(a.path, b.path, error);
   }
-  // What is not there yet is lost only if both are written; what would be read may be the name of a map.
+  // Files that do not exist yet matter only if both are written; a path to read may be the name of a map.
   if (!a.written || !b.written || a.path.empty()) return false;
   const auto normal = [&error](const NamedFile& file) {
     return fs::absolute(file.path, error).lexically_normal();

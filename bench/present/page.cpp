@@ -39,7 +39,7 @@ class Page {
   Expected<std::string, std::string> write(const std::vector<DensityChart>& charts) {
     const db::RunSummary& run = data_.run.run;
     const std::string uuid = run.uuid.substr(0, kShortUuid);
-    return with_pictures(filled_page(report_template(), "sipplab: run " + uuid,
+    return with_pictures(filled_page("report", "sipplab: run " + uuid,
                                      {{"suite", xml_escaped(run.suite)},
                                       {"run", uuid},
                                       {"facts", part([&] { facts(); })},

@@ -246,7 +246,7 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
 
 Expected<std::string, std::string> reproduction_page(const std::vector<MeasuredCell>& cells,
                                                      const std::string& source) {
-  return with_pictures(filled_page(reproduction_template(), "AAMAS 2018, reproduced",
+  return with_pictures(filled_page("reproduction", "AAMAS 2018, reproduced",
                                    {{"source", xml_escaped(source)},
                                     {"claims", html_table(claim_words(cells))},
                                     {"figure", picture_place(0)},

@@ -32,7 +32,7 @@ struct PlottedStep {
 
 struct PlottedRun {
   db::RunReport report;
-  std::vector<PlottedResult> results;  ///< only where the picture needs them
+  std::vector<PlottedResult> results;  ///< only if the picture needs them
   std::vector<PlottedStep> steps;      ///< by instance and time
 };
 

@@ -124,7 +124,7 @@ Expected<std::string, std::string> solvers_page(const db::Table& rows, const std
     charts.push_back(std::move(chart));
   }
   return with_pictures(
-      filled_page(solvers_template(), "Planners side by side",
+      filled_page("solvers", "Planners side by side",
                   {{"source", xml_escaped(source)}, {"charts", places}, {"table", table_html(rows)}}),
       charts);
 }

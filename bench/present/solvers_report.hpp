@@ -20,7 +20,7 @@ db::Result<db::Table> solver_rows(const std::filesystem::path& database,
 /// fit for a file.
 std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows);
 
-/// All of it as one page. Errors: one line, where there is no gnuplot.
+/// All of it as one page. Errors: one line if there is no gnuplot.
 Expected<std::string, std::string> solvers_page(const db::Table& rows, const std::string& source);
 
 }  // namespace sipplab::bench

@@ -1,5 +1,7 @@
 #include "bench/present/template.hpp"
 
+#include <algorithm>
+
 #include "planner/io/text.hpp"
 #include "sipplab/error.hpp"
 
@@ -23,10 +25,19 @@ std::string filled(std::string_view text, const Fields& fields) {
   return out;
 }
 
+std::string_view template_called(std::string_view name) {
+  const std::span<const db::EmbeddedText> templates = page_templates();
+  const auto found =
+      std::find_if(templates.begin(), templates.end(), [&](const auto& page) { return page.name == name; });
+  PLANNER_ASSERT(found != templates.end());
+  return found->text;
+}
+
 }  // namespace
 
-std::string filled_page(std::string_view body, const std::string& title, const Fields& fields) {
-  return filled(page_template(), {{"title", xml_escaped(title)}, {"body", filled(body, fields)}});
+std::string filled_page(std::string_view name, const std::string& title, const Fields& fields) {
+  return filled(template_called("page"),
+                {{"title", xml_escaped(title)}, {"body", filled(template_called(name), fields)}});
 }
 
 }  // namespace sipplab::bench

@@ -3,15 +3,12 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "db/embedded_text.hpp"
 
 namespace sipplab::bench {
 
-struct AdversarialCase {
-  std::string_view name;  ///< "01"
-  std::string_view text;  ///< as planner/io/case_codec.hpp reads it
-};
-
-std::span<const AdversarialCase> adversarial_cases();
+/// By name: "01". The text is as planner/io/case_codec.hpp reads it.
+std::span<const db::EmbeddedText> adversarial_cases();
 
 }  // namespace sipplab::bench

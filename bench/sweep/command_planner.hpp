@@ -17,7 +17,7 @@ namespace sipplab::bench {
 /// Resident memory of another planner with all that it starts, MiB: four times what the published
 /// planner takes for the largest instances of its archive, and half of a small machine's memory.
 inline constexpr std::uint64_t kDefaultMemoryLimitMib = 4096;
-/// Wall-clock seconds where a case sets no limit: that of [AY18], section 5.
+/// Wall-clock seconds if a case sets no limit: that of [AY18], section 5.
 inline constexpr double kDefaultCommandLimitS = 300;
 
 /// Overlap in cells, or error of a duration in seconds, that is laid to the rounding of a
@@ -34,7 +34,7 @@ struct CommandPlannerSpec {
   std::string format = {};  ///< of its solution, as sipplab::solution_formats() has it; empty: guessed
   std::uint64_t memory_limit_mib = kDefaultMemoryLimitMib;
   double rounding = kDefaultRounding;  ///< cells, and seconds of a duration
-  std::string no_plan = {};  ///< what it prints where the file that it leaves is no plan; empty: nothing
+  std::string no_plan = {};  ///< what it prints if the file that it leaves is no plan; empty: nothing
   bool retime = false;       ///< judge its plan with the earliest times for its paths and orders
 };
 
@@ -46,7 +46,7 @@ Expected<CommandPlannerSpec, std::string> parse_command_planner(const std::strin
 
 class CommandPlanner {
  public:
-  /// Errors: one line, where there is no place for its files.
+  /// Errors: one line if there is no place for its files.
   static Expected<CommandPlanner, std::string> make(CommandPlannerSpec spec);
 
   const std::string& name() const { return spec_.name; }

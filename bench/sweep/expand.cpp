@@ -212,7 +212,7 @@ Expected<ExpandedSweep, std::string> expand_folders(const SweepRequest& request)
 /// Each case with the options that it came with.
 ExpandedSweep expand_adversarial(const SweepRequest& request) {
   Expansion expansion(request);
-  for (const AdversarialCase& adversarial : adversarial_cases()) {
+  for (const db::EmbeddedText& adversarial : adversarial_cases()) {
     std::optional<PlanCase> plan_case = decode_case(adversarial.text);
     if (!plan_case || find_error(plan_case->instance)) continue;  // a test sees to it that all are read
     SuiteBlock block;

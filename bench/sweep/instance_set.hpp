@@ -14,7 +14,7 @@
 namespace sipplab::bench {
 
 struct PreparedInstance {
-  Instance instance;        ///< empty where it is broken
+  Instance instance;        ///< empty if it is broken
   std::string broken = {};  ///< what is wrong with its file, in one line
   db::InstanceInfo row;     ///< as the history knows it
 };
@@ -54,7 +54,7 @@ struct LoadedSets {
 /// The .xml and .scen files of a folder in natural order (2.xml before 10.xml), or those of its sub-folders
 /// where it has none itself; one set for each number of robots. Files without robots (solutions, maps,
 /// options) are left out. A broken instance stays, as one that cannot be planned, in the folder's largest
-/// set. Errors: one line; where no file is an instance, the first broken one's.
+/// set. Errors: one line; if no file is an instance, the first broken one's.
 Expected<LoadedSets, std::string> load_sets(const std::string& folder, const FolderRequest& request);
 
 /// A set of one instance that is in no file; `environment` is its map_spec and name, too.

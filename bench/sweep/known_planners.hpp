@@ -12,7 +12,7 @@ struct KnownPlanner {
   std::string_view command;       ///< with placeholders, {program} for the path
   std::string_view format;        ///< of its solution, as sipplab::solution_formats() has it
   std::string_view needs;         ///< of the instance and the machine, and how it is built
-  std::string_view no_plan = {};  ///< what it prints where the file that it leaves is no plan
+  std::string_view no_plan = {};  ///< what it prints if the file that it leaves is no plan
 };
 
 /// In the order of the list that people see.

@@ -27,12 +27,12 @@ void add_verdict(const Instance& instance, const Solution& solution, const Valid
                  db::ResultRow& row, double rounding = 0);
 
 /// The verdict on a plan with the earliest times for its paths and orders, and beside it what the plan was as
-/// given. Where no such times exist, status invalid and a message that begins with "not_executable".
+/// given. If no such times exist: status invalid and a message that begins with "not_executable".
 void judge_retimed(const Instance& instance, const Solution& given, const MotionRules& rules,
                    db::ResultRow& row, double rounding = 0);
 
 /// solve(), judged by the guarantees that are kept, with the curve of its improvement. Planning time is that
-/// of all steps. Where the clock ended the improvement, the result says so. With `retimed` the plan is
+/// of all steps. If the clock ended the improvement, the result says so. With `retimed` the plan is
 /// re-timed, and keeps no guarantee of start-safe intervals.
 db::ResultRow run_instance(const Instance& instance, const PlannerOptions& options, bool retimed = false);
 

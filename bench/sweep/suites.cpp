@@ -89,7 +89,7 @@ std::vector<Suite> make_suites() {
        .blocks = {{kEmpty, {32, 64}, over(by_rule)}, {kWarehouse, {32, 48}, over(by_rule)}}},
       // Where prioritized planning begins to fail, a tenth of a second and less for each.
       {.name = "gate-crowded",
-       .purpose = "what `sipplab gate` times besides: 96 to 192 robots, ejection, improvement",
+       .purpose = "what `sipplab gate` also times: 96 to 192 robots, ejection, improvement",
        .instances = 2,
        .time_limit_s = kGenerousLimitS,
        .max_restarts = 30,

@@ -45,7 +45,7 @@ class Recording {
   db::Result<db::Done> start();
   bool started() const { return recorder_.has_value(); }
   void add(const SweepEntry& entry, const db::InstanceInfo& instance, const db::ResultRow& row);
-  /// Commits where the last time was about a second ago.
+  /// Commits if the last commit was about a second ago.
   db::Result<db::Done> commit_if_due();
   db::Result<db::Done> finish(db::RunStatus status);
   const std::string& run_uuid() const { return recorder_->run_uuid(); }

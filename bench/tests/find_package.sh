@@ -19,7 +19,7 @@ quietly cmake -S "$work/prefix/share/doc/sipplab/example" -B "$work/build" -G "$
 quietly cmake --build "$work/build"
 "$work/build/example"
 
-# The manual page names every command and flag that --help names; the completion offers them.
+# The manual page has every command, flag and line of text that --help has; the completion offers the first two.
 program=$work/prefix/bin/sipplab
 gzip -dc "$work/prefix/share/man/man1/sipplab.1.gz" | tr -d '\\' >"$work/manual"
 # No pipe into grep -q: it ends at the first match, and what still writes then fails.
@@ -37,6 +37,9 @@ commands=$("$program" --help | sed -n '/^Subcommands:/,$s/^  \([a-z]\{1,\}\) .*/
 for command in $commands; do
   grep -q "^.SS $command" "$work/manual" || { echo "the manual lacks $command" && exit 1; }
   offers "$command" "$command" || { echo "$command is not completed" && exit 1; }
+  while IFS= read -r line; do
+    grep -qF -- "$line" "$work/manual" || { echo "the manual lacks a line of $command: $line" && exit 1; }
+  done < <("$program" "$command" --help | grep -vE '^( |$|Usage:|[A-Z][A-Za-z ]*:$)')
   for flag in $("$program" "$command" --help | grep -o '^  [^ ].*' | grep -o -- '--[a-z][a-z-]*' | sort -u); do
     grep -q -- "$flag" "$work/manual" || { echo "the manual lacks $command $flag" && exit 1; }
     case $flag in
@@ -45,4 +48,4 @@ for command in $commands; do
     esac
   done
 done
-echo 'manual and completion: all commands and flags'
+echo 'manual and completion: all that --help has'

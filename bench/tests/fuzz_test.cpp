@@ -72,7 +72,7 @@ TEST(Coverage, AnythingElseIsRefusedInOneLine) {
 TEST(Adversarial, EveryCaseIsACaseThatIsHardAndInTheSuite) {
   const auto cases = adversarial_cases();
   EXPECT_GT(cases.size(), 10U);
-  for (const AdversarialCase& adversarial : cases) {
+  for (const db::EmbeddedText& adversarial : cases) {
     const auto plan_case = decode_case(adversarial.text);
     ASSERT_TRUE(plan_case) << adversarial.name;
     EXPECT_FALSE(find_error(plan_case->instance)) << adversarial.name;

@@ -3,15 +3,10 @@
 # the machine does to a sweep. Prints one line per promise that is broken.
 #
 #   golden_cli.sh PATH_OF_SIPPLAB
-set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 # A copy, so that another user may run it for the test of permissions.
-install -m 755 "$1" "$work/sipplab"
-chmod 755 "$work"
-cd "$work" || exit 1
+install -m 755 "$sipplab" sipplab
+chmod 755 .
 sipplab=$work/sipplab
 
 ask() { sqlite3 history.db "$1"; }

@@ -1,11 +1,7 @@
 #!/usr/bin/env bash
 # The gate and the comparison of runs, as users meet them. $1: sipplab.
-set -u
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-install -m 755 "$1" "$work/sipplab"
-cd "$work" || exit 1
+install -m 755 "$sipplab" sipplab
 sipplab=$work/sipplab
 export TMPDIR=$work/temporary
 mkdir "$TMPDIR"

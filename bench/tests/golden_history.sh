@@ -3,15 +3,10 @@
 # and every question of the cookbook. Prints one line per promise that is broken.
 #
 #   golden_history.sh PATH_OF_SIPPLAB PATH_OF_COOKBOOK
-set -uo pipefail
-. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
 cookbook=$(realpath "$2")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/build/release"
-ln -s "$(realpath "$1")" "$work/build/release/sipplab"
-cd "$work" || exit 1
+. "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
+mkdir -p build/release
+ln -s "$sipplab" build/release/sipplab
 sipplab=$work/build/release/sipplab
 ask() { sqlite3 "${2:-sipplab.db}" "$1"; }
 bench() { expect 0 bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 "$@"; }

@@ -4,13 +4,7 @@
 # broken.
 #
 #   golden_improvement.sh PATH_OF_SIPPLAB
-set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-sipplab=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 
 # value KEY FILE: of a JSON document with a key on a line of its own.
 value() { sed -n "s/^  \"$1\": \"\\{0,1\\}\\([^\",]*\\)\"\\{0,1\\},\\{0,1\\}\$/\\1/p" "$2"; }

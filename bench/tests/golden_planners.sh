@@ -3,13 +3,7 @@
 # flood. Prints one line per promise that is broken.
 #
 #   golden_planners.sh PATH_OF_SIPPLAB
-set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-sipplab=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 export sipplab
 # The sanitizers' own memory is no planner's.
 unlimited=(--memory-limit 1073741824)

@@ -3,15 +3,11 @@
 # line per promise that is broken.
 #
 #   golden_property.sh PATH_OF_SIPPLAB PATH_OF_PROPERTIES
-set -uo pipefail
+properties=$(realpath "$2")
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 # As in a build folder: sipplab, and the program of the properties below it.
-install -D -m 755 "$1" "$work/sipplab"
-install -D -m 755 "$2" "$work/property_tests/properties"
-cd "$work" || exit 1
+install -m 755 "$sipplab" sipplab
+install -D -m 755 "$properties" property_tests/properties
 unset RC_PARAMS SIPPLAB_PROPERTY_LOG
 
 # prints TEXT [FILE]: the text as it stands, not a pattern.
@@ -109,7 +105,7 @@ printf '#!/bin/sh\nexit 0\n' >property_tests/properties
 runs 0 ./sipplab property replay "$id" --db history.db
 prints 'property  holds now'
 # Renamed: a room without it does not mend it.
-printf '#!/bin/sh\nexec "%s" open_list\n' "$2" >property_tests/properties
+printf '#!/bin/sh\nexec "%s" open_list\n' "$properties" >property_tests/properties
 runs 3 ./sipplab property replay "$number" --db history.db
 prints 'not run'
 # Its program is gone: nobody can say whether it holds, whatever becomes of the plan.

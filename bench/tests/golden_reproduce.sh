@@ -3,13 +3,7 @@
 # judged later, and as a page. Prints one line per promise that is broken.
 #
 #   golden_reproduce.sh PATH_OF_SIPPLAB
-set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
-
-sipplab=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 ask() { sqlite3 sipplab.db "$1"; }
 
 # 0 or 1: so few instances may differ from the paper's. On a machine with other work the ten

@@ -1,5 +1,10 @@
-# What the golden tests of the command line share; sourced by them once `sipplab` holds the
-# program and the working folder is a scratch folder of the test.
+# What the golden tests of the command line share. They source it first: then $sipplab is the program that
+# their first argument names, and the working folder, $work, is a scratch folder that vanishes with them.
+set -uo pipefail
+sipplab=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
 
 # A sanitizer's finding must not look like a negative verdict.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:exitcode=99" UBSAN_OPTIONS="${UBSAN_OPTIONS:-}:exitcode=99"

@@ -56,16 +56,16 @@ while read -r line; do complain "$line, which is not installed"; done < <(
   git grep -E '^#include "' -- "$interface/*.hpp" | grep -v '"sipplab/'
 )
 
-# Folder of a file, folder of what it includes, file. A header of the interface counts as one of its room.
+# Folder of a file, folder of what it includes, file. A header of the interface counts as part of the folder that defines it.
 includes=$(git grep -E '^#include "[^"]+/[^"]+"' -- '*.cpp' '*.hpp' | sed -E 's/:#include "/ /; s/"$//' |
   awk -v interface="$interface" '
     function folder_of(path) {
       sub("^sipplab/", interface "/", path)
-      if (path in room) return room[path]
+      if (path in home) return home[path]
       sub("/[^/]*$", "", path)
       return path
     }
-    NR == FNR { if (split($0, column, " *[|] *") == 5 && gsub("`", "", column[2])) room[interface "/" column[2]] = "planner/" column[3]; next }
+    NR == FNR { if (split($0, column, " *[|] *") == 5 && gsub("`", "", column[2])) home[interface "/" column[2]] = "planner/" column[3]; next }
     { print folder_of($1), folder_of($2), $1 }
   ' $interface/README.md - | sort -u)
 for header in $interface/*.hpp; do
@@ -121,7 +121,7 @@ while read -r line; do complain "$line"; done < <(
 
 # Folders that include each other, however far round.
 circle=$(awk '$1 != $2 { print $1, $2 }' <<<"$includes" | tsort 2>&1 >/dev/null |
-  sed -n '/input contains/!s/^tsort: //p' | tr '\n' ' ')
+  sed -n '/input contains/!s/^tsort: //p' | awk '!seen[$0]++' | tr '\n' ' ')
 [ -z "$circle" ] || complain "folders include each other in a circle: $circle"
 
 [ "$broken" -eq 0 ] && echo 'repository: everything in its place'

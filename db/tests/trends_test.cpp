@@ -1,6 +1,8 @@
 // Trends: one point per version, in the order of history, and the changes between them.
 #include "db/trends.hpp"
 
+#include <set>
+
 #include "db/queries.hpp"
 #include "db/tests/history_support.hpp"
 
@@ -187,6 +189,26 @@ TEST_F(Trends, every_metric_can_be_asked) {
   for (const TrendMetric& metric : trend_metrics()) {
     EXPECT_LE(trend(std::string(metric.name)).size(), 1U) << metric.name;
   }
+}
+
+// The view is what users of SQL ask, the table is what `sipplab trend` asks.
+TEST_F(Trends, the_view_has_the_metrics_of_cases_and_their_values) {
+  record_version(file, {1, 1, 8});
+  std::set<std::string> names;
+  for (const TrendMetric& metric : trend_metrics()) {
+    if (!metric.of_case) continue;
+    const std::string name(metric.name);
+    names.insert(name);
+    EXPECT_EQ(test::ask(file, "SELECT (SELECT value FROM v_trends WHERE metric = '" + name +
+                                  "') IS (SELECT " + metric.sql + " FROM cell_summary)"),
+              "1")
+        << name;
+  }
+  std::string expected;
+  for (const std::string& name : names) expected += expected.empty() ? name : ' ' + name;
+  EXPECT_EQ(
+      test::ask(file, "SELECT group_concat(metric, ' ') FROM (SELECT metric FROM v_trends ORDER BY metric)"),
+      expected);
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ std::string function_of(const std::string& line) {
     return plus == std::string::npos ? "" : line.substr(plus, line.find_first_of(") ", plus) - plus);
   }
   bool ours = false;
-  for (const char* room : {"/planner/", "/property_tests/", "/fuzz/"})
-    ours |= line.find(room) != std::string::npos;
+  for (const char* folder : {"/planner/", "/property_tests/", "/fuzz/"})
+    ours |= line.find(folder) != std::string::npos;
   if (!ours || line.find("/fuzz/replay/") != std::string::npos) return "";
   std::string name = line.substr(in + 4);
   constexpr std::string_view kAnonymous = "(anonymous namespace)::";

@@ -11,7 +11,7 @@ namespace sipplab {
 struct CsvRecord {
   std::vector<std::string> fields;
   int line = 0;
-  bool complete = true;  ///< false where a quote stays open
+  bool complete = true;  ///< false if a quote stays open
 };
 
 /// Cuts the next record off `rest`; quoted fields may hold line breaks. `line` is that of the text's next
@@ -19,7 +19,7 @@ struct CsvRecord {
 /// however many there are.
 CsvRecord next_csv_record(std::string_view& rest, int& line, std::size_t most_fields);
 
-/// In quotes where it needs them.
+/// In quotes if it needs them.
 void append_csv_field(std::string& out, std::string_view text);
 
 }  // namespace sipplab

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/options/option_table.hpp"
+#include "sipplab/error.hpp"
 #include "sipplab/instance.hpp"
 
 namespace sipplab {
@@ -47,6 +49,16 @@ struct InstanceParts {
   std::optional<LinedList<DynamicObstacle>> obstacles;
   std::optional<OptionsPart> options;
   std::vector<std::string> warnings;
+};
+
+/// A format of instances, or of a part of one.
+struct InstanceFormat {
+  /// Whether a text may be of this format, from its first characters.
+  bool (*begins_so)(std::string_view head);
+  Input<InstanceParts> (*parse)(std::string_view text, const std::string& file_name);
+  /// What a text is that holds no robots, in words; empty for one that holds some or is broken. Null: each
+  /// text of this format holds robots.
+  std::string (*without_robots)(std::string_view text, const std::string& file_name) = nullptr;
 };
 
 }  // namespace sipplab

@@ -1,59 +1,43 @@
 // From files to an Instance: see instance_io.hpp.
 #include "sipplab/instance_io.hpp"
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "planner/instance/reachability.hpp"
 #include "planner/io/instance_parts.hpp"
-#include "planner/io/movingai.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
-#include "planner/io/xml_instance.hpp"
 
 namespace sipplab {
+
+// Each is defined in the file of its format.
+InstanceFormat movingai_map_format();
+InstanceFormat movingai_scenario_format();
+InstanceFormat xml_instance_format();
+
 namespace {
 
-enum class TextFormat { kXml, kMovingaiMap, kMovingaiScenario, kUnknown };
-
-TextFormat format_of(std::string_view text) {
-  text = without_byte_order_mark(text);
-  const std::string_view head = trimmed(text.substr(0, 4096));  // no format begins with more blanks than that
-  if (head.substr(0, 1) == "<") return TextFormat::kXml;
-  const std::string_view word = head.substr(0, head.find_first_of(" \t\r\n"));
-  if (word == "version") return TextFormat::kMovingaiScenario;
-  if (word == "type" || word == "height" || word == "width") return TextFormat::kMovingaiMap;
-  return TextFormat::kUnknown;
+/// In the order in which a text is asked for its format; null: it is of none.
+const InstanceFormat* format_of(std::string_view text) {
+  static const InstanceFormat formats[] = {
+      xml_instance_format(),
+      movingai_scenario_format(),
+      movingai_map_format(),
+  };
+  constexpr std::size_t kHeadLength = 4096;  // no format begins with more blanks than that
+  const std::string_view head = trimmed(without_byte_order_mark(text).substr(0, kHeadLength));
+  const auto* const found =
+      std::find_if(std::begin(formats), std::end(formats),
+                   [&](const InstanceFormat& format) { return format.begins_so(head); });
+  return found == std::end(formats) ? nullptr : found;
 }
 
 Input<InstanceParts> parse_parts(std::string_view text, const std::string& file_name) {
-  InstanceParts parts;
-  parts.file_name = file_name;
-  switch (format_of(text)) {
-    case TextFormat::kXml:
-      return parse_xml_instance(text, file_name);
-    case TextFormat::kMovingaiMap: {
-      Input<GridMap> map = parse_movingai_map(text, file_name);
-      if (!map) return Unexpected{map.error()};
-      parts.map = MapPart{std::move(*map), 1};
-      return parts;
-    }
-    case TextFormat::kMovingaiScenario: {
-      Input<MovingaiScenario> scenario = parse_movingai_scen(text, file_name);
-      if (!scenario) return Unexpected{scenario.error()};
-      if (!scenario->agents.empty()) {
-        parts.map_reference = MapReference{std::move(scenario->map_name), scenario->map_width,
-                                           scenario->map_height, scenario->agent_lines.front()};
-      }
-      parts.agents = LinedList<Agent>{std::move(scenario->agents), std::move(scenario->agent_lines), 1};
-      parts.states_bodies = false;
-      return parts;
-    }
-    case TextFormat::kUnknown:
-      break;
-  }
+  if (const InstanceFormat* const format = format_of(text)) return format->parse(text, file_name);
   return Unexpected{
       InputError{file_name, 1, text.empty() ? "empty file" : "neither XML nor a MovingAI file",
                  "XML with <root>, or text that begins with 'type' (a map) or 'version' (a scenario)"}};
@@ -251,15 +235,8 @@ Input<LoadedInstance> load_instance(const InstanceFiles& files) {
 std::string kind_without_robots(const std::string& path) {
   const Input<std::string> text = read_text(path);
   if (!text) return "";
-  switch (format_of(*text)) {
-    case TextFormat::kXml:
-      return xml_without_robots(*text, path);
-    case TextFormat::kMovingaiMap:
-      return "a map";
-    case TextFormat::kMovingaiScenario:
-      return "";
-    case TextFormat::kUnknown:
-      break;
+  if (const InstanceFormat* const format = format_of(*text)) {
+    return format->without_robots != nullptr ? format->without_robots(*text, path) : "";
   }
   return text->empty() ? "an empty file" : "neither XML nor a MovingAI file";
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "planner/io/instance_parts.hpp"
 #include "planner/io/text.hpp"
 
 namespace sipplab {
@@ -95,6 +96,37 @@ Input<MapHeader> read_map_header(Reader& reader) {
     }
   }
   return reader.error_at_end("the text ends within the header of the map", "a line 'map' and rows of cells");
+}
+
+std::string_view first_word(std::string_view head) { return head.substr(0, head.find_first_of(" \t\r\n")); }
+
+bool is_map(std::string_view head) {
+  const std::string_view word = first_word(head);
+  return word == "type" || word == "height" || word == "width";
+}
+bool is_scenario(std::string_view head) { return first_word(head) == "version"; }
+
+Input<InstanceParts> parts_of_map(std::string_view text, const std::string& file_name) {
+  Input<GridMap> map = parse_movingai_map(text, file_name);
+  if (!map) return Unexpected{map.error()};
+  InstanceParts parts;
+  parts.file_name = file_name;
+  parts.map = MapPart{std::move(*map), 1};
+  return parts;
+}
+
+Input<InstanceParts> parts_of_scenario(std::string_view text, const std::string& file_name) {
+  Input<MovingaiScenario> scenario = parse_movingai_scen(text, file_name);
+  if (!scenario) return Unexpected{scenario.error()};
+  InstanceParts parts;
+  parts.file_name = file_name;
+  if (!scenario->agents.empty()) {
+    parts.map_reference = MapReference{std::move(scenario->map_name), scenario->map_width,
+                                       scenario->map_height, scenario->agent_lines.front()};
+  }
+  parts.agents = LinedList<Agent>{std::move(scenario->agents), std::move(scenario->agent_lines), 1};
+  parts.states_bodies = false;
+  return parts;
 }
 
 }  // namespace
@@ -202,5 +234,11 @@ Input<MovingaiScenario> parse_movingai_scen(std::string_view text, const std::st
   }
   return scenario;
 }
+
+InstanceFormat movingai_map_format() {
+  return {is_map, parts_of_map, [](std::string_view, const std::string&) { return std::string("a map"); }};
+}
+
+InstanceFormat movingai_scenario_format() { return {is_scenario, parts_of_scenario}; }
 
 }  // namespace sipplab

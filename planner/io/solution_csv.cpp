@@ -66,21 +66,7 @@ void append_line(std::string& out, std::size_t agent, std::string_view id, const
   out += '\n';
 }
 
-}  // namespace
-
-std::string solution_to_csv(const Instance& instance, const SolutionDocument& document) {
-  const bool with_turns = has_turns(document.solution);
-  std::string out(with_turns ? kHeaderWithTurns : kHeader);
-  out += '\n';
-  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
-  for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    const std::string& id = instance.agents[i].id;
-    const Cell start = trajectories[i].start;
-    if (needs_place(trajectories[i])) append_line(out, i, id, {0, 0, start, start}, with_turns);
-    for (const TimedMotion& motion : trajectories[i].motions) append_line(out, i, id, motion, with_turns);
-  }
-  return out;
-}
+bool is_csv(std::string_view head) { return head.substr(0, 5) == "agent"; }
 
 Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::string& file_name,
                                            const Instance& instance) {
@@ -131,6 +117,26 @@ Input<SolutionDocument> parse_solution_csv(std::string_view text, const std::str
     if (!is_first || !states_place(*motion)) trajectory.motions.push_back(*motion);
   }
   return document;
+}
+
+}  // namespace
+
+std::string solution_to_csv(const Instance& instance, const SolutionDocument& document) {
+  const bool with_turns = has_turns(document.solution);
+  std::string out(with_turns ? kHeaderWithTurns : kHeader);
+  out += '\n';
+  const std::vector<Trajectory>& trajectories = document.solution.trajectories;
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    const std::string& id = instance.agents[i].id;
+    const Cell start = trajectories[i].start;
+    if (needs_place(trajectories[i])) append_line(out, i, id, {0, 0, start, start}, with_turns);
+    for (const TimedMotion& motion : trajectories[i].motions) append_line(out, i, id, motion, with_turns);
+  }
+  return out;
+}
+
+SolutionFormat csv_format() {
+  return {"csv", "CSV of this program", is_csv, parse_solution_csv, always<solution_to_csv>};
 }
 
 }  // namespace sipplab

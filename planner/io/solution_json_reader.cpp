@@ -219,7 +219,7 @@ void read_planner_options(JsonReader& reader, const json& document, SolutionDocu
   result.options = options;
 }
 
-}  // namespace
+bool is_json(std::string_view head) { return head.substr(0, 1) == "{"; }
 
 Input<SolutionDocument> parse_solution_json(std::string_view text, const std::string& file_name,
                                             const Instance& instance) {
@@ -257,6 +257,12 @@ Input<SolutionDocument> parse_solution_json(std::string_view text, const std::st
   result.ssi_kept_s = read_ssi(reader, document, "ssi_kept");
   if (reader.error()) return Unexpected{*reader.error()};
   return result;
+}
+
+}  // namespace
+
+SolutionFormat json_format() {
+  return {"json", "JSON of this program", is_json, parse_solution_json, always<solution_to_json>};
 }
 
 }  // namespace sipplab

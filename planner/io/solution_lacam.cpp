@@ -5,6 +5,7 @@
 #include "planner/io/text.hpp"
 
 namespace sipplab {
+namespace {
 
 bool is_lacam_solution(std::string_view head) {
   LineScanner lines(head);
@@ -73,6 +74,12 @@ Input<SolutionDocument> parse_solution_lacam(std::string_view text, const std::s
   }
   document.solution = plan.take();
   return document;
+}
+
+}  // namespace
+
+SolutionFormat lacam_format() {
+  return {"lacam", "result text of LaCAM, LaCAM2, LaCAM3 and PIBT", is_lacam_solution, parse_solution_lacam};
 }
 
 }  // namespace sipplab

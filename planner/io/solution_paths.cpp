@@ -26,6 +26,8 @@ std::optional<std::size_t> cut_robot(std::string_view& line) {
   return static_cast<std::size_t>(*robot);
 }
 
+enum class CellOrder { kGuess, kRowsFirst, kColumnsFirst };
+
 Cell swapped(Cell cell) { return {cell.y, cell.x}; }
 
 /// The first cell of a path.
@@ -53,8 +55,6 @@ int agreement(const std::vector<RobotPath>& paths, const Instance& instance, boo
   }
   return (starts ? 2 : 0) + (starts && goals ? 1 : 0);
 }
-
-}  // namespace
 
 bool is_path_solution(std::string_view head) {
   std::string_view line = trimmed(head.substr(0, head.find('\n')));
@@ -107,6 +107,25 @@ Input<SolutionDocument> parse_solution_paths(std::string_view text, const std::s
   SolutionDocument document;
   document.solution = plan.take();
   return document;
+}
+
+template <CellOrder order>
+Input<SolutionDocument> parse_paths(std::string_view text, const std::string& file,
+                                    const Instance& instance) {
+  return parse_solution_paths(text, file, instance, order);
+}
+
+}  // namespace
+
+SolutionFormat path_format() {
+  return {"paths", "Agent 0: (3,4)->(3,5)->, rows or columns first, as they fit", is_path_solution,
+          parse_paths<CellOrder::kGuess>};
+}
+SolutionFormat eecbs_format() {
+  return {"eecbs", "paths, rows first: EECBS, CBSH2-RTC, PBS", nullptr, parse_paths<CellOrder::kRowsFirst>};
+}
+SolutionFormat xy_path_format() {
+  return {"paths-xy", "paths, columns first", nullptr, parse_paths<CellOrder::kColumnsFirst>};
 }
 
 }  // namespace sipplab

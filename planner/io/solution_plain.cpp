@@ -80,8 +80,6 @@ Expected<Trajectory, std::string> trajectory_of(std::string_view text) {
   return trajectory;
 }
 
-}  // namespace
-
 bool is_plain_solution(std::string_view head) {
   std::string_view rest = trimmed(head.substr(0, head.find('\n')));
   return rest.substr(0, 1) == "#" || (cut(rest, ':') && trimmed(rest).substr(0, 1) == "(");
@@ -120,6 +118,12 @@ Input<SolutionDocument> parse_solution_plain(std::string_view text, const std::s
   }
   document.solution = collector.take();
   return document;
+}
+
+}  // namespace
+
+SolutionFormat plain_format() {
+  return {"lines", "0: (3,4,0) (5,4,2): cells and times", is_plain_solution, parse_solution_plain};
 }
 
 }  // namespace sipplab

@@ -180,6 +180,28 @@ void read_trajectories(XmlReader& reader, xml_node log, const Instance& instance
   document.solution = collector.take();
 }
 
+bool is_xml(std::string_view head) {
+  return head.substr(0, 1) == "<" || head.substr(0, 4) == "\xef\xbb\xbf<";
+}
+
+Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,
+                                           const Instance& instance) {
+  Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
+  if (!parsed) return Unexpected{parsed.error()};
+  XmlReader& reader = **parsed;
+  const xml_node log = reader.only_child(reader.root(), "log");
+  if (!log) reader.fail(reader.root(), "no <log> in <root>", "one with the trajectories");
+  SolutionDocument document;
+  if (const auto options = read_options(reader)) {
+    document.options = options->options.applied_to({});
+  }
+  read_summary(reader, reader.only_child(log, "summary"), instance, document);
+  read_order(reader, reader.only_child(log, "order"), instance, document.order);
+  if (!reader.failed()) read_trajectories(reader, log, instance, document);
+  if (reader.failed()) return Unexpected{reader.error()};
+  return document;
+}
+
 }  // namespace
 
 std::string solution_to_xml(const Instance& instance, const SolutionDocument& document) {
@@ -199,22 +221,8 @@ std::string solution_to_xml(const Instance& instance, const SolutionDocument& do
   return file_text(file);
 }
 
-Input<SolutionDocument> parse_solution_xml(std::string_view text, const std::string& file_name,
-                                           const Instance& instance) {
-  Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
-  if (!parsed) return Unexpected{parsed.error()};
-  XmlReader& reader = **parsed;
-  const xml_node log = reader.only_child(reader.root(), "log");
-  if (!log) reader.fail(reader.root(), "no <log> in <root>", "one with the trajectories");
-  SolutionDocument document;
-  if (const auto options = read_options(reader)) {
-    document.options = options->options.applied_to({});
-  }
-  read_summary(reader, reader.only_child(log, "summary"), instance, document);
-  read_order(reader, reader.only_child(log, "order"), instance, document.order);
-  if (!reader.failed()) read_trajectories(reader, log, instance, document);
-  if (reader.failed()) return Unexpected{reader.error()};
-  return document;
+SolutionFormat xml_format() {
+  return {"xml", "XML in the style of AA-SIPP(m)'s log", is_xml, parse_solution_xml, always<solution_to_xml>};
 }
 
 }  // namespace sipplab

@@ -128,8 +128,6 @@ class ScheduleEvents : public YAML::EventHandler {
   YAML::Mark mark_;
 };
 
-}  // namespace
-
 bool is_yaml_solution(std::string_view head) {
   LineScanner lines(head);
   while (const auto line = lines.next()) {
@@ -161,6 +159,12 @@ Input<SolutionDocument> parse_solution_yaml(std::string_view text, const std::st
     return error(last_line, missing, "a list of x, y and t for each robot of the instance");
   document.solution = events.plan().take();
   return document;
+}
+
+}  // namespace
+
+SolutionFormat yaml_format() {
+  return {"yaml", "schedule of libMultiRobotPlanning", is_yaml_solution, parse_solution_yaml};
 }
 
 }  // namespace sipplab

@@ -302,8 +302,6 @@ Input<SolutionDocument> parse_tracker_table(std::string_view text, const std::st
                                "one with a plan of the instance"}};
 }
 
-}  // namespace
-
 bool is_tracker_solution(std::string_view head) {
   if (is_tracker_table(head)) return true;
   const std::string_view line = trimmed(head.substr(0, head.find('\n')));
@@ -317,6 +315,7 @@ Input<SolutionDocument> parse_solution_tracker(std::string_view text, const std:
   return plan_of_moves(text, file_name, 1, instance, std::nullopt);
 }
 
+/// A table: its header, and a row for a solution.
 Expected<std::string, std::string> solution_to_tracker(const Instance& instance,
                                                        const SolutionDocument& document) {
   if (document.status != "solved") return std::string(kTrackerHeader) + '\n';
@@ -326,6 +325,13 @@ Expected<std::string, std::string> solution_to_tracker(const Instance& instance,
         std::string("the plan has other moves than along rows and columns, expected --method complete")};
   }
   return tracker_csv(instance, tracker_scenario(document.robots_file), *steps);
+}
+
+}  // namespace
+
+SolutionFormat tracker_format() {
+  return {"tracker", "MAPF-tracker's moves, a line for each robot: 3ru2l, or its table", is_tracker_solution,
+          parse_solution_tracker, solution_to_tracker};
 }
 
 }  // namespace sipplab

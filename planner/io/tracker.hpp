@@ -23,7 +23,8 @@ struct TrackerRow {
   std::int64_t solution_cost = 0;
 };
 
-/// "maps/x-random-3.scen" is scenario 3 of type random on map x. Empty parts where the name says less.
+/// "maps/x-random-3.scen" is scenario 3 of type random on map x. Parts that the name does not state are
+/// empty.
 TrackerRow tracker_scenario(const std::string& file_name);
 
 /// One string for each robot, with runs counted: "3ru2l".

@@ -212,8 +212,10 @@ LinedList<DynamicObstacle> read_obstacles(XmlReader& reader, xml_node node) {
 
 bool holds_agents(xml_node map) { return map.child("agents") || map.child("startx"); }
 
-}  // namespace
+bool begins_as_xml(std::string_view head) { return head.substr(0, 1) == "<"; }
 
+/// "a solution" for XML with a <log>, "XML without agents", "XML of another kind", or nothing: the text may
+/// be an instance, or no XML at all.
 std::string xml_without_robots(std::string_view text, const std::string& file_name) {
   const Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
   if (!parsed) return parsed.error().expected == kRootTag ? "XML of another kind" : "";
@@ -221,6 +223,8 @@ std::string xml_without_robots(std::string_view text, const std::string& file_na
   if (root.child("log")) return "a solution";
   return root.child("agents") || holds_agents(root.child("map")) ? "" : "XML without agents";
 }
+
+}  // namespace
 
 Input<InstanceParts> parse_xml_instance(std::string_view text, const std::string& file_name) {
   Input<std::unique_ptr<XmlReader>> parsed = XmlReader::parse(text, file_name);
@@ -248,5 +252,7 @@ Input<InstanceParts> parse_xml_instance(std::string_view text, const std::string
   parts.warnings = reader.take_warnings();
   return parts;
 }
+
+InstanceFormat xml_instance_format() { return {begins_as_xml, parse_xml_instance, xml_without_robots}; }
 
 }  // namespace sipplab

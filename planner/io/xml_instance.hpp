@@ -15,8 +15,4 @@ namespace sipplab {
 /// yet checked against a map.
 Input<InstanceParts> parse_xml_instance(std::string_view text, const std::string& file_name);
 
-/// "a solution" for XML with a <log>, "XML without agents", "XML of another kind", or nothing: the text may
-/// be an instance, or no XML at all.
-std::string xml_without_robots(std::string_view text, const std::string& file_name);
-
 }  // namespace sipplab

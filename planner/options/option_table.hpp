@@ -56,7 +56,7 @@ inline bool is_told(const Option& option, const PlannerOptions& options) {
 /// Whether set() would take the text.
 bool takes(const Option& option, std::string_view text);
 
-/// The word of published files for a text of ours, and the other way round; the same text where there is
+/// The word of published files for a text of ours, and the other way round; the same text if there is
 /// none.
 std::string published_text(const Option& option, std::string_view text);
 std::string text_of_published(const Option& option, std::string_view published);

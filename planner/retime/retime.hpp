@@ -39,7 +39,7 @@ struct RetimeResult {
 ///      as few as any through those of the ring that was found first.
 /// Linear in the moves for plans of unit moves between four neighbours by robots of one speed and one radius
 /// of at most 0.5 in which no two robots are at one cell at once; see find_meetings() for others. Errors: one
-/// line, where the plan is none for this instance, or the rules inflate (who keeps away from whom depends on
+/// line, if the plan is none for this instance, or the rules inflate (who keeps away from whom depends on
 /// an order). REQUIRES: !find_error(instance).
 Expected<RetimeResult, std::string> retime(const Instance& instance, const Solution& solution,
                                            const MotionRules& rules = {});

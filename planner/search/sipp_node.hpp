@@ -37,7 +37,7 @@ struct alignas(64) SippNode {
     departure_s = leaves_s;
     arrival_s = arrives_s;
   }
-  /// Whether `way_departure_s` holds for node `id`.
+  /// Whether `edge_departure_s` holds for node `id`.
   bool knows_edge_from(NodeId id, const SippNode& from) const {
     return edge_from == id && edge_version == from.version && from.version < kLastVersion;
   }

@@ -28,7 +28,7 @@ class UnitMoves {
   UnitMoves(const FreeGrid& grid, double reach_cells);
 
   const FreeGrid& grid() const { return grid_; }
-  /// kNoCell where there is no free cell.
+  /// kNoCell if there is no free cell.
   CellId next(CellId cell, Direction direction) const { return next_[cell][direction]; }
   /// REQUIRES: the two are neighbours.
   Direction direction(CellId from, CellId to) const;

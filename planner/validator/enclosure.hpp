@@ -49,8 +49,8 @@ inline Enclosure operator-(Enclosure a, Enclosure b) {
   return Enclosure::outwards(a.low - b.high, a.high - b.low);
 }
 
-inline Enclosure operator*(Enclosure a, Enclosure b) {
-  const double ends[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+/// All that lies between the ends, which were rounded.
+inline Enclosure hull_of(const double (&ends)[4]) {
   double low = ends[0];
   double high = ends[0];
   for (const double end : ends) {
@@ -61,17 +61,13 @@ inline Enclosure operator*(Enclosure a, Enclosure b) {
   return Enclosure::outwards(low, high);
 }
 
+inline Enclosure operator*(Enclosure a, Enclosure b) {
+  return hull_of({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+}
+
 inline Enclosure operator/(Enclosure a, Enclosure b) {
   if (!(b.low > 0 || b.high < 0)) return Enclosure::everything();
-  const double ends[] = {a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high};
-  double low = ends[0];
-  double high = ends[0];
-  for (const double end : ends) {
-    if (std::isnan(end)) return Enclosure::everything();
-    low = std::min(low, end);
-    high = std::max(high, end);
-  }
-  return Enclosure::outwards(low, high);
+  return hull_of({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
 }
 
 /// Never below 0, and narrower than a * a if a may be 0.

@@ -11,7 +11,7 @@
 namespace sipplab {
 
 /// Appends what the trajectory of instance.agents[agent] does against the rules, in order
-/// of its motions, until `violations` holds `max_violations`. Where the trajectory states a
+/// of its motions, until `violations` holds `max_violations`. If the trajectory states a
 /// turn between two moves, the turn must lead into the direction of the next one and take
 /// its time; if it states none, standing long enough is as good.
 /// REQUIRES: all times are finite.

@@ -12,12 +12,10 @@ from itertools import pairwise
 NO_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
                      r"|//[^\n]*|/\*.*?\*/|^[ \t]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
 INCLUDE = '#include "property_tests/mutants/switch.hpp"\n'
-# Files that the build puts into raw strings with these delimiters. What is chosen at run time is no constant.
-EMBEDDED = {".sql": "sql", ".html": "text"}
-EMBEDDING = {
-    "db/cmake/embed_migrations.cmake": ("constexpr Migration kMigrations", "const Migration kMigrations"),
-    "db/cmake/embed_text.cmake": ("static constexpr std::string_view", "static const std::string_view"),
-}
+# Files that EMBEDDING puts into raw strings with this delimiter.
+EMBEDDED = (".sql", ".html")
+EMBEDDING = "db/cmake/embed.cmake"
+DELIMITER = "embedded"
 PARENTHESES = "\0"  # stands for a pair and what is in it
 
 
@@ -27,14 +25,12 @@ class SwitchError(Exception):
 
 def switched(file, text, mutants):
     """The text of a file with these pairs of number and mutant as switches in it."""
-    if file in EMBEDDING:
-        before, after = EMBEDDING[file]
-        return text.replace(before, after).replace("#include", INCLUDE.replace('"', '\\"') + "#include", 1)
+    if file == EMBEDDING:
+        return text.replace("#include", INCLUDE.replace('"', '\\"') + "#include", 1)
     if not mutants:
         return text
-    delimiter = EMBEDDED.get(file[file.rfind("."):])
-    if delimiter:
-        begin, end = f'R"{delimiter}(', f'){delimiter}"'
+    if file.endswith(EMBEDDED):
+        begin, end = f'R"{DELIMITER}(', f'){DELIMITER}"'
         chosen = "".join(f"{is_chosen(number)} ? {begin}{planted(text, mutant)}{end} : " for number, mutant in mutants)
         return f'{end}[0] == 0 && {chosen}{begin}{text}'  # the build writes begin before this and end behind it
     places = {}

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from builder import NAMES, names_header
 from mutants import ROOT, find_errors, of_file, read_mutants
-from switches import SwitchError, planted, switched
+from switches import EMBEDDING, SwitchError, planted, switched
 
 SWITCH = NAMES.replace("_names", "")
 HEADERS = "#include <array>\n#include <cstdio>\n#include <cstdlib>\n#include <string>\n#include <string_view>\n"
@@ -66,11 +66,10 @@ void run() {
 MAIN = r'''
 #include "sample.cpp"
 #include "db/migrate.hpp"
-#include "page.hpp"
 int main() {
   run();
-  for (const auto& step : sipplab::db::migrations()) std::printf("%s", std::string(step.sql).c_str());
-  std::printf("%s", std::string(sipplab::page()).c_str());
+  for (const auto& step : sipplab::db::migration_files()) std::printf("%s", std::string(step.text).c_str());
+  std::printf("%s", std::string(sipplab::db::pages()[0].text).c_str());
 }
 '''
 SQL = "CREATE TABLE one (a INTEGER);\nCREATE VIEW v AS SELECT max(a) FROM one\nWHERE a > 0;\n"
@@ -88,9 +87,9 @@ MUTANTS += [("view", "migrations/0001_one.sql", "max(a)", "min(a)"), ("table", "
 FILES = {
     "sample.cpp": HEADERS + SAMPLE, "main.cpp": MAIN, "migrations/0001_one.sql": SQL, "page.html": PAGE,
     "db/migrate.hpp": "#pragma once\n#include <span>\n#include <string>\n#include <string_view>\nnamespace sipplab::db {\n"
-                      "struct Migration { int version; std::string_view name, sql; };\nstd::span<const Migration> migrations();\n}\n",
-    "page.hpp": "#pragma once\n#include <string_view>\nnamespace sipplab { std::string_view page(); }\n",
-    **{file: (ROOT / file).read_text() for file in ("db/cmake/embed_migrations.cmake", "db/cmake/embed_text.cmake")}}
+                      "struct EmbeddedText { std::string_view name, text; };\n"
+                      "std::span<const EmbeddedText> migration_files(), pages();\n}\n",
+    EMBEDDING: (ROOT / EMBEDDING).read_text()}
 
 
 def run(folder, *command, **environment):
@@ -103,9 +102,9 @@ def build_switched(folder, mutants, compiler, cmake):
     for name, text in {**files, NAMES: names_header(mutants), SWITCH: (ROOT / SWITCH).read_text()}.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text)
-    run(folder, cmake, "-DFOLDER=migrations", "-DOUTPUT=migrations.cpp", "-P", "db/cmake/embed_migrations.cmake")
-    run(folder, cmake, "-DINPUT=page.html", "-DOUTPUT=page.cpp", "-DSYMBOL=page", "-DHEADER=page.hpp", "-P", "db/cmake/embed_text.cmake")
-    run(folder, compiler, "-std=c++20", "-w", "-I.", "main.cpp", "migrations.cpp", "page.cpp", "-o", "switched")
+    for symbol, file in (("migration_files", "migrations/0001_one.sql"), ("pages", "page.html")):
+        run(folder, cmake, f"-DFILES={file}", f"-DOUTPUT={symbol}.cpp", f"-DSYMBOL=db::{symbol}", "-DHEADER=db/migrate.hpp", "-P", EMBEDDING)
+    run(folder, compiler, "-std=c++20", "-w", "-I.", "main.cpp", "migration_files.cpp", "pages.cpp", "-o", "switched")
 
 
 def expected_outputs(folder, mutants, compiler):

@@ -38,7 +38,7 @@ struct GeneratorOptions {
   std::size_t agents = 0;
   std::uint64_t seed = 1;
   std::uint64_t index = 0;  ///< which instance of this seed
-  // Each robot's is drawn from these, all equally likely; if there is but one value,
+  // Each robot's value is drawn from these, all equally likely; if there is only one,
   // nothing is drawn.
   std::vector<double> radii_cells = {kDefaultRadiusCells};
   std::vector<double> speeds_cells_per_s = {kDefaultSpeedCellsPerS};

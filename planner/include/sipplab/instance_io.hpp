@@ -16,7 +16,7 @@
 namespace sipplab {
 
 /// Paths. Each part (agents, map, options, obstacles) is taken from the file given
-/// for it; where there is none, from `instance`, then from any other file that
+/// for it; if there is none, from `instance`, then from any other file that
 /// holds it. A scenario without a map brings the map that it names: sought as
 /// named, then beside the scenario, then in ../maps/.
 struct InstanceFiles {

@@ -58,7 +58,7 @@ struct PlanResult {
 PlanResult plan_prioritized(const Instance& instance, const PlannerOptions& options,
                             SingleAgentPlanner& planner);
 
-/// The planner for one robot that the options name: AA-SIPP, or SIPP where any_angle is false, with headings
+/// The planner for one robot that the options name: AA-SIPP, or SIPP if any_angle is false, with headings
 /// and delays if the rules ask for them. The instance must outlive it. It REQUIRES the Reservations that
 /// plan_prioritized() passes, not another implementation of them.
 std::unique_ptr<SingleAgentPlanner> single_agent_planner(const Instance& instance,

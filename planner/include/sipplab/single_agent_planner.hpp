@@ -77,8 +77,8 @@ class SingleAgentPlanner {
                                                  const SearchLimits& limits,
                                                  SearchStatistics& statistics) = 0;
 
-  /// A trajectory that goes the way of the given one, or cuts its corners, and arrives no later; none if this
-  /// planner has no such thing, or if the given one collides with something in `reservations`.
+  /// A trajectory that follows the given one, or cuts its corners, and arrives no later. None if this planner
+  /// cannot do that, or if the given one collides with something in `reservations`.
   virtual std::optional<Trajectory> tighten(AgentIndex /*agent*/, const Trajectory& /*given*/,
                                             Reservations& /*reservations*/) {
     return std::nullopt;

@@ -38,15 +38,15 @@ struct SolutionDocument {
   std::uint64_t generations = 0;
   double planning_seconds = 0;
   std::string plan_hash;
-  std::string made_by;      ///< "prioritized", "complete"; empty where it is not known
+  std::string made_by;      ///< "prioritized", "complete"; empty if it is not known
   std::string robots_file;  ///< where the robots come from; MAPF-tracker's table names its scenario after it
   /// The guarantee of start-safe intervals holds for `order` in [0, ssi_kept_s].
   std::optional<double> ssi_kept_s;
   /// What it was planned with, as the table of options has it. Kept by JSON (extra keys at the end) and XML.
   std::optional<PlannerOptions> options;
-  /// What another program says of its run, under its own names: numbers that nobody checked. Not written.
+  /// What another program says of its run, under its own names: unchecked numbers. Not written.
   std::vector<std::pair<std::string, double>> reported;
-  /// Told by JSON, where there is something to tell, and not read back.
+  /// Written to JSON if there are any, and not read back.
   std::vector<EjectionRecord> ejections;
   std::vector<BestStep> steps;
   std::optional<ImprovementLog> improvement;
@@ -69,9 +69,9 @@ std::string solution_to_csv(const Instance& instance, const SolutionDocument& do
 /// right is for validate() to say; here only its form is checked.
 ///
 /// Plans in discrete time are read as their programs write them: a step lasts as long as the slowest robot
-/// needs for a cell, and what disagrees with the instance is an error, as another start, a jump, too few
-/// robots, rows and columns exchanged. `format` is a name of solution_formats(), where guessing fails; empty:
-/// guess.
+/// needs for a cell. A plan that disagrees with the instance is an error: another start, a jump, too few
+/// robots, rows and columns exchanged. `format` is a name of solution_formats(), for files where guessing
+/// fails; empty: guess.
 Input<SolutionDocument> parse_solution(std::string_view text, const std::string& file_name,
                                        const Instance& instance, std::string_view format = {});
 Input<SolutionDocument> load_solution(const std::string& path, const Instance& instance,
@@ -91,7 +91,7 @@ struct SolutionFormat {
 };
 /// In the order in which a text is asked for its format.
 std::span<const SolutionFormat> solution_formats();
-/// The format that a file's suffix names, where it is written; else XML.
+/// The format that a file's suffix names, if it is written; else XML.
 std::string_view solution_format_of_file(std::string_view path);
 /// `format`: a name of solution_formats() that is written. The error says why the solution cannot be told in
 /// it.

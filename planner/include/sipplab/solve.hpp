@@ -38,7 +38,7 @@ struct SolveResult {
   const PriorityOrder& order() const {
     return improvement && improvement->order ? *improvement->order : plan.order();
   }
-  /// How long it keeps starts safe, in that order; 0 if it guarantees nothing of them.
+  /// How long it keeps starts safe, in that order; 0 if it guarantees none.
   double ssi_kept_s() const { return improvement ? improvement->ssi_kept_s : plan.ssi_kept_s; }
   /// What the validator is to check of a plan that was made under these rules.
   ValidationOptions guarantees(const MotionRules& rules) const { return {ssi_kept_s(), order(), rules}; }
@@ -49,9 +49,8 @@ struct SolveResult {
   SearchStatistics statistics() const;
 };
 
-/// Why options and instance do not go together, in one line: LaCAM knows neither moving
-/// obstacles nor different speeds, for example, and ejection and improvement nothing of inflated distances
-/// and times.
+/// Why options and instance do not go together, in one line. For example, LaCAM plans for neither moving
+/// obstacles nor different speeds, and ejection and improvement for neither inflated distances nor times.
 std::optional<std::string> find_beyond(const Instance& instance, const PlannerOptions& options);
 
 /// Plans as the options say; if they ask for it, with all methods in turn, and improves the plan.

@@ -60,7 +60,7 @@ struct ValidationReport {
   /// the sum of their radii, in cells: negative means overlap, however small. Exact
   /// below kClearanceReachCells (1); if all are farther apart than that, that
   /// value. Infinity if there is nothing to compare: no two bodies, or a solution
-  /// without usable times. Where max_violations ended the comparison early, that of
+  /// without usable times. If max_violations ended the comparison early, that of
   /// the pairs compared so far.
   double min_clearance_cells = std::numeric_limits<double>::infinity();
 
@@ -102,16 +102,16 @@ struct PairVerdict {
 
 /// A span of uniform motion that is not decided by its ends, its least distance and the
 /// line that one body runs along as seen from the other is halved, until it is in
-/// kCertifiedParts parts. Undecided remain spans whose deepest overlap is within
-/// rounding of the tolerance, and all pairs of a body whose motions do not follow each
+/// kCertifiedParts parts. A span stays undecided if its deepest overlap is within rounding
+/// of the tolerance; all pairs of a body are undecided if its motions do not follow each
 /// other exactly (validate() permits gaps of 1e-9 s). O(motions of both).
 /// REQUIRES: radii are finite and above 0.
 PairVerdict certify_pair(const Trajectory& a, double radius_a_cells, const Trajectory& b,
                          double radius_b_cells);
 
-/// Ways that hardly change while two bodies touch are the hard ones: rounding of places
-/// (1e-14 cells on a map of 100) hides the direction of a line of up to 1e-6 cells, and
-/// parts of 1e-8, the tolerance, are decided by their length alone. Some hundreds do.
+/// The hard pairs are those whose distance hardly changes while they touch: rounding of places (1e-14 cells
+/// on a map of 100) hides the direction of a line that is shorter than 1e-6 cells. Parts of 1e-8 cells, the
+/// tolerance, are decided by their length alone, so a few hundred of them are enough.
 inline constexpr int kCertifiedParts = 1024;
 
 /// A pair that is not safe.
@@ -132,10 +132,9 @@ struct Certification {
   std::size_t pairs() const { return safe + collisions + undecided; }
 };
 
-/// Certifies each pair of robots and each robot with each dynamic obstacle. Says nothing of
-/// what a trajectory guarantees on its own: that is for validate(). All pairs of a robot
-/// without trajectory are undecided. O(n^2) pairs, of which those whose paths stay apart
-/// cost a comparison.
+/// Certifies each pair of robots and each robot with each dynamic obstacle. Does not check what
+/// a trajectory guarantees on its own; validate() does. All pairs of a robot without trajectory
+/// are undecided. O(n^2) pairs; one whose paths stay apart costs a comparison.
 /// REQUIRES: !find_error(instance).
 Certification certify(const Instance& instance, const Solution& solution, std::size_t max_findings = 100);
 
