@@ -323,6 +323,8 @@ equal "$(sqlite3 merged.db 'SELECT lower_cost, solution_cost FROM best_known')" 
 expect 0 doctor --db merged.db
 expect 0 retime --task scenario/lane-random-7.scen --solution lane.csv -o lane.json
 says 'retimed +valid'
+expect 0 retime --task scenario/lane-random-7.scen --solution lane.csv --format tracker
+cmp -s out lane.csv || complain 'a plan of unit steps comes back otherwise from its re-timing'
 expect 0 plan --task scenario/lane-random-7.scen --solution lane.csv --improve 50i --json
 says '"status": "solved"'
 python3 -c 'import json; r = json.load(open("out")); g = json.load(open("lane.json")); assert r["flowtime"] < g["flowtime"], (r["flowtime"], g["flowtime"])' ||

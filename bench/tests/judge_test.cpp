@@ -296,6 +296,7 @@ TEST(Judgement, MemoryOfTwoProcessesInformsAlone) {
   const Judgement judgement = judgement_of(cells);
   EXPECT_NEAR(row(judgement, kMemory, std::nullopt).effect, std::log(56.05 / 51.05), 1e-4);
   EXPECT_EQ(judgement.all.verdict, Verdict::kSame);
+  EXPECT_EQ(sight_text(judgement).find("memory"), std::string::npos) << sight_text(judgement);
 }
 
 TEST(Judgement, ATestOfRanksDoesNotSpeakForAMeanThatGoesTheOtherWay) {
