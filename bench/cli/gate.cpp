@@ -32,6 +32,8 @@ constexpr const char* kThisProgram = "/proc/self/exe";
 
 /// The instances of a comparison are the same always, so that its noise can be compared too.
 constexpr std::uint64_t kInstanceSeed = 1;
+/// Of each cell, where what is said is tested and not how well is measured.
+constexpr std::uint64_t kShortCellInstances = 2;
 
 struct GateArguments {
   bool serve = false;
@@ -161,6 +163,7 @@ int run_gate(const GateArguments& given) {
   bench::GateCases::Extent extent;
   extent.exact = !arguments.timed_only;
   extent.crowded = extent.laboratory = !arguments.quick;
+  if (arguments.quick) extent.instances = kShortCellInstances;
   for (const auto& [program, title] : {std::pair(arguments.base, "base"), {arguments.head, "head"}}) {
     const auto worker =
         SIPPLAB_TRY_OR(bad_usage, bench::WorkerProcess::start({program, title, std::nullopt, {}}));

@@ -25,13 +25,13 @@ Expected<GateCases, std::string> GateCases::make(const std::string& suite, std::
                                                  const Extent& extent) {
   auto folder = SIPPLAB_TRY(TemporaryFolder::make());
   GateCases cases(std::move(folder));
-  std::string error = cases.add_suite(suite, seed, true, false);
+  std::string error = cases.add_suite(suite, seed, true, false, extent.instances);
   if (error.empty() && extent.laboratory) cases.add_laboratory();
   if (error.empty() && extent.crowded && suite == kTimedSuite) {
-    error = cases.add_suite(kCrowdedSuite, seed, true, true);
+    error = cases.add_suite(kCrowdedSuite, seed, true, true, extent.instances);
   }
   if (error.empty() && extent.exact && suite != kExactSuite) {
-    error = cases.add_suite(kExactSuite, seed, false, false);
+    error = cases.add_suite(kExactSuite, seed, false, false, extent.instances);
   }
   if (!error.empty()) return Unexpected{error};
   return cases;
@@ -56,13 +56,15 @@ void GateCases::add_laboratory() {
   }
 }
 
-std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow) {
+std::string GateCases::add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow,
+                                 std::optional<std::uint64_t> instances) {
   SweepRequest request;
   request.suite = find_suite(name);
   if (request.suite == nullptr) return fmt::format("no suite '{}'", name);
   // Restarts limit these suites; a clock would change results.
   request.values = {{find_option("time-limit"), {"inf"}}};
   request.seed = seed;
+  request.count = instances;
   Expected<ExpandedSweep, std::string> sweep = expand(request);
   if (!sweep) return sweep.error();
 

@@ -2,6 +2,8 @@
 // besides, of which only the results are compared.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,8 @@ class GateCases {
     bool exact = true;       ///< the smoke suite
     bool crowded = true;     ///< what takes longer: beside suite gate those of gate-crowded
     bool laboratory = true;  ///< the tasks beside planning
+    /// Instances of each cell; none: as many as the suite has.
+    std::optional<std::uint64_t> instances = std::nullopt;
   };
   /// Makes the instances and writes them as files. Errors: one line.
   static Expected<GateCases, std::string> make(const std::string& suite, std::uint64_t seed,
@@ -51,7 +55,8 @@ class GateCases {
 
  private:
   explicit GateCases(TemporaryFolder folder) : folder_(std::move(folder)) {}
-  std::string add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow);
+  std::string add_suite(const std::string& name, std::uint64_t seed, bool timed, bool slow,
+                        std::optional<std::uint64_t> instances);
   void add_laboratory();
 
   TemporaryFolder folder_;
