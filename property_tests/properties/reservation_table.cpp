@@ -112,7 +112,7 @@ rc::Gen<Traffic> any_traffic() {
       rc::gen::set(&Askers::max_radius_cells, any_of({1.5, 0.5, 0.25})),
       // Slower than the robots that ask, and so fast that slow ones are as good as at rest.
       rc::gen::set(&Askers::max_speed_cells_per_s, any_of({1.0, 1.0, 0.25, 40.0})),
-      rc::gen::set(&Askers::time_margin_s, any_of({0.0, 0.0, 0.0, 0.5})));
+      rc::gen::set(&Askers::time_margin_s, any_of({0.0, 0.0, 0.0, 0.5, 4.0})));
   return rc::gen::build<Traffic>(rc::gen::set(&Traffic::askers, any_askers),
                                  rc::gen::set(&Traffic::blocked, up_to(2, any_cell(kWidth, kHeight))),
                                  rc::gen::set(&Traffic::guards, up_to(4, any_guard())),
