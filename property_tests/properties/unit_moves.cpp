@@ -10,8 +10,10 @@
 #include "planner/complete/complete_planner.hpp"
 #include "planner/improve/objective.hpp"
 #include "planner/reservation/reservation_table.hpp"
+#include "planner/retime/retime.hpp"
 #include "planner/retime/steps.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "planner/unit_moves/attempt.hpp"
 #include "planner/unit_moves/improve_unit_moves.hpp"
 #include "planner/unit_moves/route_search.hpp"
@@ -171,6 +173,27 @@ int main() {
     RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
   });
 
+  passed &= property("improve_unit_moves (1): nor worse than a plan in which small robots follow closer", [] {
+    // All are taken for the largest.
+    Planned planned;
+    planned.plan_case = at_full_size([] { return make_crowd(*rc::gen::arbitrary<std::uint64_t>()); });
+    for (Agent& agent : planned.plan_case.instance.agents) {
+      agent.radius_cells = *rc::gen::element(0.125, 0.25, 0.5);
+    }
+    note_case(planned.plan_case);
+    planned.options.max_expansions = kMostSteps;
+    planned.result = plan_complete(planned.plan_case.instance, planned.options);
+    RC_PRE(planned.result.status == LacamStatus::kSolved);
+    const auto closer = retime(planned.plan_case.instance, planned.result.solution);
+    RC_PRE(closer && !closer->solution.trajectories.empty());
+    planned.options.improve = ImproveBudget{};
+    planned.options.improve->iterations = *rc::gen::inRange<std::uint64_t>(0, 20);
+    const std::optional<UnitImprovement> result =
+        improve_unit_moves(planned.plan_case.instance, closer->solution, planned.options);
+    RC_CLASSIFY(!result, "given up");
+    if (result) RC_ASSERT(flowtime_s(result->solution) <= flowtime_s(closer->solution));
+  });
+
   passed &= property("improve_unit_moves (2): valid for disks, and of unit moves", [] {
     const Planned planned = any_planned();
     const Instance& instance = planned.plan_case.instance;
@@ -250,6 +273,28 @@ int main() {
           RC_ASSERT(cost.makespan == cost_of(routes).makespan);
         }
       });
+
+  passed &= property("improvement in stages counts the work of both", [] {
+    Planned planned = any_planned();
+    const Instance& instance = planned.plan_case.instance;
+    PlannerOptions& options = planned.options;
+    PlanResult given;
+    given.status = PlanStatus::kSolved;
+    given.made_by = Method::kComplete;
+    given.solution = planned.result.solution;
+    given.trace.push_back({planned.result.order, std::nullopt, {}});
+    given.ssi_s = options.ssi_s;
+    given.ssi_kept_s = planned.result.ssi_kept_s;
+    const auto work = [&](std::uint64_t iterations) {
+      options.improve->iterations = iterations;
+      return improve_in_stages(instance, given, options, {}).statistics.expansions;
+    };
+    // Unit moves have most of the iterations, more than half of them in any case.
+    const std::uint64_t before = work(0);
+    const std::uint64_t after = work(20);
+    options.improve->iterations = 10;
+    RC_ASSERT(after >= before + improved(planned).statistics.expansions);
+  });
 
   passed &= property("a search by unit moves arrives when SIPP over the same disks does", [] {
     const Planned planned = any_planned();
