@@ -362,7 +362,7 @@ void ranges_name_all_numbers() {
   }
   RC_ASSERT(read == numbers);
   std::size_t runs = 0;
-  for (const std::size_t number : numbers) runs += numbers.contains(number - 1) ? 0 : 1;
+  for (const std::size_t number : numbers) runs += numbers.contains(number - 1) ? 0U : 1U;
   RC_ASSERT(parts == runs);
 }
 
