@@ -10,6 +10,9 @@
 
 namespace sipplab::bench {
 
+/// A program that signal n stopped ends with this plus n, as shells tell it.
+inline constexpr int kSignalExitBase = 128;
+
 struct ProgramOptions {
   std::vector<std::string> environment = {};  ///< "NAME=value", replacing or added
   std::filesystem::path log = {};             ///< stderr goes to its end; empty: to this process's stderr

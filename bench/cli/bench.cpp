@@ -28,6 +28,7 @@
 #include "bench/sweep/shard.hpp"
 #include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep.hpp"
+#include "bench/sweep/task_plan.hpp"
 #include "db/database.hpp"
 #include "db/recorder.hpp"
 #include "planner/io/text.hpp"
@@ -86,7 +87,7 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
   info.command_line = arguments.invocation.command_line;
   if (arguments.task) {  // as the sweep was planned
     info.command_line = "sipplab";
-    for (const std::string& argument : arguments_without(
+    for (const std::string& argument : bench::arguments_without(
              arguments.invocation.arguments, {"--shard", "--sweep", "--task-of", "--db", "--resume"})) {
       info.command_line += " " + argument;
     }
@@ -199,7 +200,7 @@ int run_sweep(const BenchArguments& arguments, const bench::BenchmarkFlags& flag
   if (const auto spec = command_of(arguments)) {
     command = SIPPLAB_TRY_OR(bad_usage, bench::CommandPlanner::make(*spec));
   }
-  const bool nothing_left = count_left(cases) == 0;
+  const bool nothing_left = bench::count_left(cases) == 0;
   const std::optional<std::string> run = earlier ? std::optional(earlier->uuid) : std::nullopt;
   bench::Sweep sweep(std::move(cases), bench::Recording(std::move(database), info, run),
                      arguments.repetitions, stderr_is_terminal(), std::move(command), arguments.retime);

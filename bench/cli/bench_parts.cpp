@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -15,48 +14,6 @@
 #include "planner/io/text.hpp"
 
 namespace sipplab::cli {
-namespace {
-
-/// Takes what a run holds out of what is to be done.
-db::Result<db::Done> leave_out_recorded(db::Database& database, const std::string& run,
-                                        bench::ExpandedSweep& sweep) {
-  const auto recorded = SIPPLAB_TRY(db::recorded_cases(database, run));
-  for (bench::NamedCase& named : sweep.cases) {
-    const db::CaseInfo row = bench::case_row(named.parameters);
-    const auto found = std::find_if(recorded.begin(), recorded.end(),
-                                    [&row](const auto& one) { return one.parameters == row; });
-    if (found == recorded.end()) continue;
-    std::set<bench::Planning> wanted(named.plannings.begin(), named.plannings.end());
-    for (const db::ResultRow& result : found->rows) {
-      if (wanted.erase({result.position, result.repetition}) > 0) named.outcome.add(result);
-    }
-    std::erase_if(named.plannings, [&wanted](const auto& planning) { return !wanted.contains(planning); });
-  }
-  return db::Done{};
-}
-
-}  // namespace
-
-std::vector<std::string> arguments_without(const std::vector<std::string>& arguments,
-                                           const std::set<std::string>& options) {
-  std::vector<std::string> kept;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::size_t equals = arguments[i].find('=');
-    if (!options.contains(arguments[i].substr(0, equals))) {
-      kept.push_back(arguments[i]);
-    } else if (equals == std::string::npos) {
-      ++i;
-    }
-  }
-  return kept;
-}
-
-std::size_t count_left(const bench::ExpandedSweep& sweep) {
-  std::size_t left = 0;
-  for (const bench::NamedCase& named : sweep.cases) left += named.plannings.size();
-  return left;
-}
-
 Expected<db::Done, std::string> deal_out(const BenchArguments& arguments, const db::RunInfo& info,
                                          bench::ExpandedSweep& cases) {
   if (!arguments.shard) {
@@ -106,9 +63,9 @@ db::Result<std::optional<db::EarlierRun>> take_up(const BenchArguments& argument
                                 fmt::format("{}: run {} is being written, expected its process to have ended",
                                             database.path().string(), earlier->uuid)}};
   }
-  const std::size_t all = count_left(sweep);
-  SIPPLAB_TRY(leave_out_recorded(database, earlier->uuid, sweep));
-  const std::size_t left = count_left(sweep);
+  const std::size_t all = bench::count_left(sweep);
+  bench::leave_out(sweep, SIPPLAB_TRY(db::recorded_cases(database, earlier->uuid)));
+  const std::size_t left = bench::count_left(sweep);
   diagnose(fmt::format("resuming run {}: {} of {} plannings are there", earlier->uuid, all - left, all));
   return earlier;
 }
@@ -133,18 +90,11 @@ int plan_tasks(const BenchArguments& arguments, const db::RunInfo& info, const b
   plan.options = info.options;
   plan.binary_hash = info.build.binary_hash;
   plan.folder = std::filesystem::current_path(error).string();
-  plan.arguments = arguments_without(arguments.invocation.arguments,
-                                     {"--plan-tasks", "--tasks", "--seconds-per-task", "--sweep", "--db"});
+  plan.arguments = bench::arguments_without(
+      arguments.invocation.arguments, {"--plan-tasks", "--tasks", "--seconds-per-task", "--sweep", "--db"});
   plan.seconds = SIPPLAB_TRY_OR(fail, bench::expected_seconds(cases, history ? &*history : nullptr));
-  double seconds = 0;
-  for (std::size_t i = 0; i < cases.cases.size(); ++i) {
-    seconds += plan.seconds[i] * static_cast<double>(arguments.repetitions) *
-               static_cast<double>(cases.sets[cases.cases[i].parameters.set].instances.size());
-  }
-  // What the largest array of Slurm is without a word of its administrator.
-  constexpr double kMostTasks = 1000;
-  const double wanted = std::clamp(std::ceil(seconds / arguments.seconds_per_task), 1.0, kMostTasks);
-  plan.tasks = std::min(arguments.tasks.value_or(static_cast<std::size_t>(wanted)),
+  const double seconds = bench::seconds_of_all(cases, arguments.repetitions, plan.seconds);
+  plan.tasks = std::min(arguments.tasks.value_or(bench::tasks_for(seconds, arguments.seconds_per_task)),
                         static_cast<std::size_t>(plan.plannings));
   if (const auto failed = bench::write_task_plan(folder, plan)) return fail(*failed);
   if (arguments.json) {

@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "bench/cli/bench_arguments.hpp"
 #include "bench/sweep/expand.hpp"
@@ -14,13 +12,6 @@
 #include "sipplab/error.hpp"
 
 namespace sipplab::cli {
-
-/// A command line without some options, which have a value each.
-std::vector<std::string> arguments_without(const std::vector<std::string>& arguments,
-                                           const std::set<std::string>& options);
-
-/// Plannings that are to be done.
-std::size_t count_left(const bench::ExpandedSweep& sweep);
 
 /// Deals out what this process is to do: all, or a shard of it.
 Expected<db::Done, std::string> deal_out(const BenchArguments& arguments, const db::RunInfo& info,

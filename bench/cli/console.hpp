@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/program.hpp"
 #include "planner/core/try.hpp"
 #include "sipplab/error.hpp"
 
@@ -22,8 +23,7 @@ enum ExitCode : int {
   kInternalError = 70,
 };
 
-/// Stopped by signal n, a command ends with this plus n, as shells do.
-inline constexpr int kSignalExitBase = 128;
+using bench::kSignalExitBase;
 
 /// Writes to stdout; what cannot be written is noticed by close_stdout().
 void print(std::string_view text);

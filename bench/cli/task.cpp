@@ -39,25 +39,6 @@ struct TaskArguments {
   bool json = false;
 };
 
-fs::path exit_file(const fs::path& folder, std::size_t task) {
-  return folder / (std::to_string(task) + ".exit");
-}
-
-/// The code with which a task's program ended last; none where it was killed with its machine, or never ran.
-std::optional<int> exit_code_of(const fs::path& folder, std::size_t task) {
-  const auto text = read_file(exit_file(folder, task).string());
-  if (!text) return std::nullopt;
-  return parse_number<int>(text->substr(0, text->find('\n')));
-}
-
-/// Whether a scheduler or a person ended it: to go on with it is no trial of what failed.
-bool was_stopped(int code) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGUSR1}) {
-    if (code == kSignalExitBase + signal_number) return true;
-  }
-  return false;
-}
-
 /// 1 to `tasks`. Schedulers count from 0 or from 1: 0 is the last one, so either way all have their turn.
 Expected<std::size_t, std::string> task_number(const TaskArguments& arguments, std::size_t tasks) {
   const std::optional<std::string> text = arguments.index ? arguments.index : bench::array_index();
@@ -118,7 +99,7 @@ int run_task(const TaskArguments& arguments) {
   const bench::TaskPlan plan = SIPPLAB_TRY_OR(fail, bench::read_task_plan(folder));
   const std::size_t task = SIPPLAB_TRY_OR(bad_usage, task_number(arguments, plan.tasks));
   // While it is not there, nobody knows of an end.
-  fs::remove(exit_file(folder, task), error);
+  fs::remove(bench::exit_file(folder, task), error);
   fs::current_path(plan.folder, error);
   if (error)
     return fail(plan.folder + ": " + error.message() + ", expected the folder where the sweep was planned");
@@ -130,48 +111,13 @@ int run_task(const TaskArguments& arguments) {
     command.push_back(argument);
   }
   const int code = run_again(std::move(command));
-  if (const auto failed = write_file(exit_file(folder, task).string(), std::to_string(code) + "\n")) {
+  if (const auto failed = write_file(bench::exit_file(folder, task).string(), std::to_string(code) + "\n")) {
     return fail(failed->message());
   }
   return code;
 }
 
-/// "1-3,7"
-std::string ranges(const std::vector<std::size_t>& numbers) {
-  std::string text;
-  for (std::size_t i = 0; i < numbers.size();) {
-    std::size_t last = i;
-    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[i]);
-    if (last > i) text += fmt::format("-{}", numbers[last]);
-    i = last + 1;
-  }
-  return text;
-}
-
-struct TaskStates {
-  std::vector<std::size_t> done;
-  std::vector<std::size_t> missing;                 ///< not begun, or ended by something else than itself
-  std::vector<std::pair<std::size_t, int>> failed;  ///< with the code
-};
-
-/// By what each task's program said when it ended.
-TaskStates states_of(const fs::path& folder, const bench::TaskPlan& plan) {
-  TaskStates states;
-  for (std::size_t task = 1; task <= plan.tasks; ++task) {
-    const auto code = exit_code_of(folder, task);
-    if (code && *code == kSuccess) {
-      states.done.push_back(task);
-    } else if (!code || was_stopped(*code)) {
-      states.missing.push_back(task);
-    } else {
-      states.failed.emplace_back(task, *code);
-    }
-  }
-  return states;
-}
-
-void say_failed(const TaskStates& states) {
+void say_failed(const bench::TaskStates& states) {
   constexpr std::size_t kMostLines = 20;
   for (std::size_t i = 0; i < states.failed.size(); ++i) {
     if (i == kMostLines) {
@@ -185,8 +131,8 @@ void say_failed(const TaskStates& states) {
 
 int show_missing(const TaskArguments& arguments) {
   const bench::TaskPlan plan = SIPPLAB_TRY_OR(fail, bench::read_task_plan(arguments.folder));
-  const TaskStates states = states_of(arguments.folder, plan);
-  if (!states.missing.empty()) print(ranges(states.missing) + "\n");
+  const bench::TaskStates states = bench::states_of(arguments.folder, plan.tasks);
+  if (!states.missing.empty()) print(bench::ranges(states.missing) + "\n");
   say_failed(states);
   return kSuccess;
 }
@@ -211,7 +157,7 @@ int collect(const TaskArguments& arguments) {
                    added += report->rows_of("result");
                  }));
   for (const std::string& line : unread) diagnose(line);
-  const TaskStates states = states_of(folder, plan);
+  const bench::TaskStates states = bench::states_of(folder, plan.tasks);
   say_failed(states);
   const auto sweeps =
       SIPPLAB_TRY_OR(fail, db::run_sql(database.path(), "SELECT results FROM v_sweeps WHERE run = :sweep",
@@ -225,14 +171,15 @@ int collect(const TaskArguments& arguments) {
                 {"added", added},
                 {"results", results},
                 {"missing", missing},
-                {"missing_tasks", ranges(states.missing)}});
+                {"missing_tasks", bench::ranges(states.missing)}});
   } else {
     print(fmt::format("run {}: {} of {} plannings, {} new, from {} of {} tasks\n", plan.sweep, results,
                       plan.plannings, added, files, plan.tasks));
   }
   if (missing == 0) return kSuccess;
-  diagnose(fmt::format("{} plannings are missing{}", missing,
-                       states.missing.empty() ? std::string() : "; of tasks " + ranges(states.missing)));
+  diagnose(
+      fmt::format("{} plannings are missing{}", missing,
+                  states.missing.empty() ? std::string() : "; of tasks " + bench::ranges(states.missing)));
   return kNegativeVerdict;
 }
 

@@ -40,8 +40,6 @@ constexpr double kGraceS = 1;
 constexpr std::uint64_t kFileLimitMib = 256;
 /// Of a program's last words.
 constexpr std::size_t kMostWords = 200;
-/// A shell adds this to the signal that ended its command.
-constexpr int kShellSignalBase = 128;
 /// The last signal of Linux; greater exit codes are a program's own.
 constexpr int kLastSignal = 64;
 
@@ -203,7 +201,7 @@ bool prints(const fs::path& log, std::string_view words) {
 /// That ended the program, as far as the shell tells; 0 for none.
 int signal_of(const ProgramRun& run) {
   if (run.signal != 0) return run.signal;
-  const int signal = run.exit_code - kShellSignalBase;
+  const int signal = run.exit_code - kSignalExitBase;
   return signal > 0 && signal <= kLastSignal ? signal : 0;
 }
 

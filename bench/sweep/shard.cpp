@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <queue>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -95,6 +96,26 @@ void deal(ExpandedSweep& sweep, std::int64_t repetitions, const Shard& shard, st
     kept[found->second].plannings.push_back(all[planning].planning);
   }
   sweep.cases = std::move(kept);
+}
+
+std::size_t count_left(const ExpandedSweep& sweep) {
+  std::size_t left = 0;
+  for (const NamedCase& named : sweep.cases) left += named.plannings.size();
+  return left;
+}
+
+void leave_out(ExpandedSweep& sweep, const std::vector<db::RecordedCase>& recorded) {
+  for (NamedCase& named : sweep.cases) {
+    const db::CaseInfo row = case_row(named.parameters);
+    const auto found = std::find_if(recorded.begin(), recorded.end(),
+                                    [&row](const auto& one) { return one.parameters == row; });
+    if (found == recorded.end()) continue;
+    std::set<Planning> wanted(named.plannings.begin(), named.plannings.end());
+    for (const db::ResultRow& result : found->rows) {
+      if (wanted.erase({result.position, result.repetition}) > 0) named.outcome.add(result);
+    }
+    std::erase_if(named.plannings, [&wanted](const auto& planning) { return !wanted.contains(planning); });
+  }
 }
 
 }  // namespace sipplab::bench

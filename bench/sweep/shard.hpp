@@ -1,4 +1,4 @@
-// Parts of a sweep, for several machines or one after the other.
+// Parts of a sweep, for several machines or one after the other, and what is left of one that was stopped.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/sweep/expand.hpp"
+#include "db/recorder.hpp"
 
 namespace sipplab::bench {
 
@@ -36,5 +37,11 @@ void deal_all(ExpandedSweep& sweep, std::int64_t repetitions);
 /// Within a shard cases and plannings stay in shuffled order, so that one that is cut off favours no case.
 void deal(ExpandedSweep& sweep, std::int64_t repetitions, const Shard& shard, std::uint64_t seed,
           const std::vector<double>& seconds);
+
+/// Plannings that are to be done.
+std::size_t count_left(const ExpandedSweep& sweep);
+
+/// Takes what a run holds out of what is to be done, and adds it to the outcomes.
+void leave_out(ExpandedSweep& sweep, const std::vector<db::RecordedCase>& recorded);
 
 }  // namespace sipplab::bench

@@ -41,12 +41,6 @@ void warm_up() {
   if (instance) run_instance(*instance, {});
 }
 
-std::size_t count_left(const ExpandedSweep& sweep) {
-  std::size_t count = 0;
-  for (const NamedCase& named : sweep.cases) count += named.plannings.size();
-  return count;
-}
-
 std::size_t cases_left(const ExpandedSweep& sweep) {
   return static_cast<std::size_t>(std::count_if(sweep.cases.begin(), sweep.cases.end(),
                                                 [](const auto& named) { return !named.plannings.empty(); }));

@@ -1,12 +1,18 @@
 #include "bench/sweep/task_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/program.hpp"
 #include "bench/sweep/shard.hpp"
 #include "db/json_text.hpp"
 #include "db/summaries.hpp"
+#include "planner/core/number.hpp"
 #include "planner/core/try.hpp"
 #include "planner/io/text_file.hpp"
 
@@ -27,6 +33,21 @@ void members(Plan& plan, Visit&& visit) {
   visit("folder", plan.folder);
   visit("arguments", plan.arguments);
   visit("seconds", plan.seconds);
+}
+
+/// None if the program was killed with its machine, or never ran.
+std::optional<int> exit_code_of(const std::filesystem::path& folder, std::size_t task) {
+  const auto text = read_file(exit_file(folder, task).string());
+  if (!text) return std::nullopt;
+  return parse_number<int>(text->substr(0, text->find('\n')));
+}
+
+/// Whether a scheduler or a person ended it: to go on with it is no trial of what failed.
+bool was_stopped(int code) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGUSR1}) {
+    if (code == kSignalExitBase + signal_number) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -76,6 +97,63 @@ db::Result<std::vector<double>> expected_seconds(const ExpandedSweep& sweep, db:
     if (!is_known[i]) seconds[i] *= measured_s / guessed_s;
   }
   return seconds;
+}
+
+double seconds_of_all(const ExpandedSweep& sweep, std::int64_t repetitions,
+                      const std::vector<double>& seconds) {
+  double all_s = 0;
+  for (std::size_t i = 0; i < sweep.cases.size(); ++i) {
+    const std::size_t instances = sweep.sets[sweep.cases[i].parameters.set].instances.size();
+    all_s += seconds[i] * static_cast<double>(repetitions) * static_cast<double>(instances);
+  }
+  return all_s;
+}
+
+std::size_t tasks_for(double seconds, double seconds_per_task) {
+  // What the largest array of Slurm is without a word of its administrator.
+  constexpr double kMostTasks = 1000;
+  return static_cast<std::size_t>(std::clamp(std::ceil(seconds / seconds_per_task), 1.0, kMostTasks));
+}
+
+std::vector<std::string> arguments_without(const std::vector<std::string>& arguments,
+                                           const std::set<std::string>& options) {
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::size_t equals = arguments[i].find('=');
+    if (!options.contains(arguments[i].substr(0, equals))) {
+      kept.push_back(arguments[i]);
+    } else if (equals == std::string::npos) {
+      ++i;
+    }
+  }
+  return kept;
+}
+
+TaskStates states_of(const std::filesystem::path& folder, std::size_t tasks) {
+  TaskStates states;
+  for (std::size_t task = 1; task <= tasks; ++task) {
+    const auto code = exit_code_of(folder, task);
+    if (code && *code == 0) {
+      states.done.push_back(task);
+    } else if (!code || was_stopped(*code)) {
+      states.missing.push_back(task);
+    } else {
+      states.failed.emplace_back(task, *code);
+    }
+  }
+  return states;
+}
+
+std::string ranges(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[i]);
+    if (last > i) text += fmt::format("-{}", numbers[last]);
+    i = last + 1;
+  }
+  return text;
 }
 
 }  // namespace sipplab::bench

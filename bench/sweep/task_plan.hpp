@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/sweep/expand.hpp"
@@ -39,5 +41,30 @@ std::optional<std::string> write_task_plan(const std::filesystem::path& folder, 
 /// What a planning of each case is expected to take: what it took in the history, else by its robots, in the
 /// scale of those that are known.
 db::Result<std::vector<double>> expected_seconds(const ExpandedSweep& sweep, db::Database* history);
+/// Of all plannings, if one of each case takes so long.
+double seconds_of_all(const ExpandedSweep& sweep, std::int64_t repetitions,
+                      const std::vector<double>& seconds);
+/// So many that each takes about `seconds_per_task`, from 1 to what Slurm allows as a rule.
+std::size_t tasks_for(double seconds, double seconds_per_task);
+
+/// A command line without some options, which have a value each.
+std::vector<std::string> arguments_without(const std::vector<std::string>& arguments,
+                                           const std::set<std::string>& options);
+
+/// Where a task leaves the code with which its program ended.
+inline std::filesystem::path exit_file(const std::filesystem::path& folder, std::size_t task) {
+  return folder / (std::to_string(task) + ".exit");
+}
+
+struct TaskStates {
+  std::vector<std::size_t> done;
+  std::vector<std::size_t> missing;                 ///< not begun, or ended by something else than itself
+  std::vector<std::pair<std::size_t, int>> failed;  ///< with the code
+};
+/// Of tasks 1 to `tasks`, by what their programs said when they ended.
+TaskStates states_of(const std::filesystem::path& folder, std::size_t tasks);
+
+/// Numbers in ascending order as job arrays are told of them: "1-3,7".
+std::string ranges(const std::vector<std::size_t>& numbers);
 
 }  // namespace sipplab::bench

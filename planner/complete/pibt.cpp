@@ -156,14 +156,14 @@ RobotId Pibt::swap_partner(RobotId robot, CellId wanted) const {
   if (wanted == here) return kNoRobot;
   const RobotId opposite = robot_at_[wanted];
   if (opposite != kNoRobot && !is_assigned(opposite) && is_swap_required(robot, opposite, here, wanted) &&
-      is_swap_possible(here, wanted)) {
+      is_swap_possible(wanted, here)) {
     return opposite;
   }
   // The robot may have to clear the way for one next to it.
   for (const CellId cell : grid_.neighbours(here)) {
     const RobotId beside = robot_at_[cell];
     if (beside == kNoRobot || cell == wanted) continue;
-    if (is_swap_required(beside, robot, here, wanted) && is_swap_possible(here, wanted)) return beside;
+    if (is_swap_required(beside, robot, here, wanted) && is_swap_possible(wanted, here)) return beside;
   }
   return kNoRobot;
 }
@@ -195,8 +195,8 @@ bool Pibt::is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, 
          (pusher_cell == distances_.goal(pusher) || distances_.is_nearer(pusher, pusher_cell, puller_cell));
 }
 
-/// Whether the pusher, pulling its partner away from where it wants to go, comes to a place
-/// where the two can pass each other.
+/// Whether the puller, going away from the pusher and pulling it along, comes to a place where the two can
+/// pass each other.
 bool Pibt::is_swap_possible(CellId pusher_cell, CellId puller_cell) const {
   const CellId begin = pusher_cell;
   while (puller_cell != begin) {

@@ -20,15 +20,23 @@ struct Corner {
   bool is_settled = false;
 };
 
-/// Cells that some path shorter than `longest` could pass, the start first.
+/// Cells that some path shorter than `longest` could pass, the start first: those of an ellipse about the
+/// ends.
 std::vector<Corner> cells_of_ellipse(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
                                      double longest) {
   std::vector<Corner> corners = {{from, 0, distance(from, to)}};
-  const auto slack = static_cast<std::int32_t>(std::ceil((longest - distance(from, to)) / 2));
-  const auto [left, right] = std::minmax(from.x, to.x);
-  const auto [top, bottom] = std::minmax(from.y, to.y);
-  for (std::int32_t y = std::max(top - slack, 0); y <= std::min(bottom + slack, map.height() - 1); ++y) {
-    for (std::int32_t x = std::max(left - slack, 0); x <= std::min(right + slack, map.width() - 1); ++x) {
+  /// Its first and last coordinate between 0 and `side` - 1; `across` is how far apart the ends are in the
+  /// other.
+  const auto extent = [longest](double one, double other, double across, std::int32_t side) {
+    const double middle = (one + other) / 2;
+    const double half = std::sqrt(std::max(longest * longest - across * across, 0.0)) / 2;
+    return std::pair{static_cast<std::int32_t>(std::max(std::floor(middle - half), 0.0)),
+                     static_cast<std::int32_t>(std::min(std::ceil(middle + half), side - 1.0))};
+  };
+  const auto [left, right] = extent(from.x, to.x, from.y - to.y, map.width());
+  const auto [top, bottom] = extent(from.y, to.y, from.x - to.x, map.height());
+  for (std::int32_t y = top; y <= bottom; ++y) {
+    for (std::int32_t x = left; x <= right; ++x) {
       const Cell cell{x, y};
       if (cell == from || cell == to || !line_of_sight.is_legal(cell)) continue;
       const double to_goal = distance(cell, to);
@@ -143,13 +151,15 @@ std::vector<double> static_times_s(const Instance& instance, bool any_angle, int
   for (AgentIndex i = 0; i < robots; ++i) {
     const Agent& agent = instance.agents[i];
     const LineOfSight& sight = lines_of_sight.of(agent.radius_cells);
-    double cells = distance(agent.start, agent.goal);
+    const double straight = distance(agent.start, agent.goal);
+    double cells = straight;
     if (!limits.is_over()) {
       cells = any_angle ? shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal,
                                                    solo_cells[i], most_work)
                         : shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
     }
-    times_s[i] = cells / agent.speed_cells_per_s;
+    // Who cannot get there at all has the bound of a straight line.
+    times_s[i] = (cells == kForever ? straight : cells) / agent.speed_cells_per_s;
   }
   return times_s;
 }
@@ -179,14 +189,12 @@ LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedne
   LinesOfSight lines_of_sight(instance.map);
   std::vector<double> solo_cells;
   for (const Agent& agent : instance.agents) {
-    const double straight = distance(agent.start, agent.goal);
     const LineOfSight& sight = lines_of_sight.of(agent.radius_cells);
-    double cells = straight;
+    double cells = distance(agent.start, agent.goal);
     if (any_angle && !sight.is_clear(agent.start, agent.goal)) {
       cells = shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
     }
-    // Large bodies may have a path and no steps: a straight line is a bound for them, too.
-    solo_cells.push_back(cells == kForever ? straight : cells);
+    solo_cells.push_back(cells);  // kForever for a large body that has a path, maybe, and no steps
   }
   std::vector<double> times_s = static_times_s(instance, any_angle, connectedness, solo_cells, {}, most_work);
   return lower_bound(times_s);

@@ -118,6 +118,80 @@ bool is_step(const FreeGrid& grid, const Configuration& now, const Configuration
   return true;
 }
 
+/// Two robots beside a free cell through which both have to go, the second one farther. Columns and rows are
+/// drawn, and which of the two is first in the input.
+struct Junction {
+  FreeGrid grid;
+  Configuration starts;
+  Configuration goals;
+  CellId middle;
+
+  static Junction any() {
+    constexpr std::int32_t kLongest = 4;
+    GridMap map(2 * kLongest + 1, 2 * kLongest + 1);
+    const Cell middle{kLongest, kLongest};
+    for (std::size_t i = 0; i < map.cell_count(); ++i) map.set_blocked(map.cell(i), true);
+    map.set_blocked(middle, false);
+    std::vector<Cell> sides = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    random.shuffle(sides);
+    const std::int32_t way = 2 + static_cast<std::int32_t>(random.below(kLongest - 1));
+    const auto at = [&](std::size_t side, std::int32_t cells) {
+      return Cell{middle.x + cells * sides[side].x, middle.y + cells * sides[side].y};
+    };
+    for (std::int32_t i = 1; i <= way; ++i) map.set_blocked(at(0, i), false);
+    for (const std::size_t side : {1U, 2U}) map.set_blocked(at(side, 1), false);
+    FreeGrid grid(map);
+    const std::int32_t nearer =
+        1 + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(way) - 1));
+    Configuration starts = {grid.id(at(1, 1)), grid.id(at(2, 1))};
+    Configuration goals = {grid.id(at(0, nearer)), grid.id(at(0, way))};
+    const CellId id = grid.id(middle);
+    return {std::move(grid), std::move(starts), std::move(goals), id};
+  }
+};
+
+/// A lane one cell wide with two robots in it that face each other. They can pass at its begin, where it has
+/// an arm to each side. At its end it has none, or two of which one is taken by a robot that has arrived.
+struct Lane {
+  FreeGrid grid;
+  Configuration starts;
+  Configuration goals;
+  std::int32_t length;
+
+  static Lane any() {
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    const auto length = 6 + static_cast<std::int32_t>(random.below(12));
+    const bool is_upright = random.one_in(2);
+    const bool is_backward = random.one_in(2);
+    const auto at = [&](std::int32_t along, std::int32_t aside) {
+      const Cell cell{is_backward ? length - 1 - along : along, 1 + aside};
+      return is_upright ? Cell{cell.y, cell.x} : cell;
+    };
+    GridMap map(is_upright ? 3 : length, is_upright ? length : 3);
+    for (const std::int32_t aside : {-1, 1}) {
+      for (std::int32_t along = 1; along < length; ++along) map.set_blocked(at(along, aside), true);
+    }
+    const auto from = 1 + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(length) - 3));
+    std::vector<std::pair<Cell, Cell>> robots = {{at(from, 0), at(length - 1, 0)},
+                                                 {at(from + 1, 0), at(0, 0)}};
+    if (random.one_in(2)) {
+      const std::int32_t taken = random.one_in(2) ? 1 : -1;
+      for (const std::int32_t aside : {-1, 1}) map.set_blocked(at(length - 1, aside), false);
+      robots.emplace_back(at(length - 1, taken), at(length - 1, taken));
+    }
+    random.shuffle(robots);
+    FreeGrid grid(map);
+    Configuration starts;
+    Configuration goals;
+    for (const auto& [start, goal] : robots) {
+      starts.push_back(grid.id(start));
+      goals.push_back(grid.id(goal));
+    }
+    return {std::move(grid), std::move(starts), std::move(goals), length};
+  }
+};
+
 /// Of each cell, the robots that come to it, one after the other.
 std::vector<std::vector<AgentIndex>> visitors_of(const GridMap& map, const Solution& solution) {
   std::vector<std::vector<std::pair<double, AgentIndex>>> comings(map.cell_count());
@@ -322,6 +396,41 @@ const PropertyRoom room("complete_planning", [] {
     const LacamResult forgetful = Lacam(cells.grid, cells.starts, cells.goals).search(1, limits);
     RC_ASSERT(forgetful.status == (cells.starts == cells.goals ? LacamStatus::kSolved : LacamStatus::kLimit));
   });
+
+  passed &= property("Lacam::search: of two robots at a junction the one with the longer way goes first", [] {
+    Junction junction = at_full_size(Junction::any);
+    const bool is_swapped = *rc::gen::arbitrary<bool>();
+    if (is_swapped) {
+      std::swap(junction.starts[0], junction.starts[1]);
+      std::swap(junction.goals[0], junction.goals[1]);
+    }
+    Lacam lacam(junction.grid, junction.starts, junction.goals);
+    const LacamResult result = lacam.search(*rc::gen::arbitrary<std::uint64_t>(), {});
+    RC_ASSERT(result.status == LacamStatus::kSolved);
+    RC_ASSERT(result.steps.at(1)[is_swapped ? 0 : 1] == junction.middle);
+  });
+
+  passed &= property(
+      "Lacam::search: robots that face each other in a lane go to where they can pass",
+      [] {
+        // There, past each other, and back: on average no cell much more than twice. Who tries the other
+        // side, too, takes several times as many steps, up to the square of them. Single cases may have bad
+        // luck.
+        constexpr int kLanes = 40;
+        constexpr std::uint64_t kMostPerCell = 5;
+        std::uint64_t cells = 0;
+        std::uint64_t steps = 0;
+        for (int i = 0; i < kLanes; ++i) {
+          const Lane lane = at_full_size(Lane::any);
+          const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+          const LacamResult result = Lacam(lane.grid, lane.starts, lane.goals).search(seed, {});
+          RC_ASSERT(result.status == LacamStatus::kSolved);
+          steps += result.steps_tried;
+          cells += static_cast<std::uint64_t>(lane.length);
+        }
+        RC_ASSERT(steps <= kMostPerCell * cells);
+      },
+      kCasesOfWorlds / 10);
 
   passed &= property("plan_complete (3): the same case gives the same plan", [] {
     const PlanCase plan_case = any_case_within_model();

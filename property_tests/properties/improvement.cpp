@@ -93,6 +93,9 @@ class AllPaths {
   std::vector<double> paths_;
 };
 
+/// Cases that plan many times.
+constexpr int kFewer = kCasesOfWorlds / 20;
+
 /// Rounding of sums of a few dozen lengths.
 constexpr double kRoundingCells = 1e-9;
 
@@ -235,6 +238,37 @@ const PropertyRoom room("improvement", [] {
       RC_ASSERT(longer.log.curve[i].cost.flowtime_s == one.log.curve[i].cost.flowtime_s);
     }
   });
+
+  passed &= property(
+      "improve (4): the attempts of a round are different ones",
+      [] {
+        // In one plan they may take as much work as each other by chance, in some plans hardly.
+        bool differ = false;
+        int plans = 0;
+        for (int i = 0; i < 12; ++i) {
+          PlanCase plan_case = *any_case_of(CaseFamily::kDense);
+          PlannerOptions& options = plan_case.options;
+          options.rescheduling = Rescheduling::kEjection;
+          options.max_restarts = 40;
+          options.improve = ImproveBudget{};
+          const PlanResult result = plan(plan_case.instance, options);
+          if (result.status != PlanStatus::kSolved || plan_case.instance.agents.size() < 4) continue;
+          std::vector<std::uint64_t> work;
+          std::uint64_t& iterations = options.improve->iterations;
+          for (iterations = 0; iterations <= 4; ++iterations) {  // a round has four
+            const ImproveResult some = improve(plan_case.instance, result.solution, result.order(), options);
+            if (some.log.iterations == iterations) work.push_back(some.statistics.expansions);
+          }
+          if (work.size() < 5) continue;  // optimal before
+          ++plans;
+          for (std::size_t k = 2; k < work.size(); ++k) {
+            differ = differ || work[k] - work[k - 1] != work[1] - work[0];
+          }
+        }
+        RC_PRE(plans >= 3);
+        RC_ASSERT(differ);
+      },
+      kFewer);
 
   passed &= property("improve (4): any number of threads gives the same plan", [] {
     const Planned planned = any_planned();

@@ -25,6 +25,9 @@
 namespace sipplab::objectives_laws {
 namespace {
 
+/// Each draws many times.
+constexpr int kFewer = kCasesOfWorlds / 10;
+
 /// Seconds or cells: rounding of sums.
 constexpr double kRounding = 1e-9;
 
@@ -74,10 +77,78 @@ PlanCase any_walled_case() {
   return plan_case;
 }
 
+/// Columns for rows.
+PlanCase turned(const PlanCase& plan_case) {
+  PlanCase turned = plan_case;
+  const GridMap& map = plan_case.instance.map;
+  turned.instance.map = GridMap(map.height(), map.width());
+  for (std::size_t i = 0; i < map.cell_count(); ++i) {
+    const Cell cell = map.cell(i);
+    turned.instance.map.set_blocked({cell.y, cell.x}, map.is_blocked(cell));
+  }
+  for (Agent& agent : turned.instance.agents) {
+    agent.start = {agent.start.y, agent.start.x};
+    agent.goal = {agent.goal.y, agent.goal.x};
+  }
+  return turned;
+}
+
+/// A wall between start and goal with one way around its end, far aside of the straight line.
+PlanCase any_long_wall() {
+  constexpr std::int32_t kWidth = 9;
+  constexpr std::int32_t kHeight = 11;
+  PlanCase plan_case;
+  plan_case.instance.map = GridMap(kWidth, kHeight);
+  const std::int32_t column = *rc::gen::inRange(2, kWidth - 2);
+  const std::int32_t thickness = *rc::gen::inRange(1, 3);
+  const std::int32_t end = *rc::gen::inRange(1, kHeight - 1);
+  for (std::int32_t y = 0; y < end; ++y) {
+    for (std::int32_t x = column; x < std::min(column + thickness, kWidth - 1); ++x) {
+      plan_case.instance.map.set_blocked({x, y}, true);
+    }
+  }
+  Agent agent;
+  agent.start = {*rc::gen::inRange(0, column), *rc::gen::inRange(0, kHeight)};
+  agent.goal = {*rc::gen::inRange(std::min(column + thickness, kWidth - 1), kWidth),
+                *rc::gen::inRange(0, kHeight)};
+  agent.radius_cells = *any_of({0.5, 0.25});
+  plan_case.instance.agents = {agent};
+  if (*rc::gen::arbitrary<bool>()) plan_case = turned(plan_case);
+  note_case(plan_case);
+  return plan_case;
+}
+
+/// Free cells on a diagonal that bends once, and a body that fits between the walls only in their centres:
+/// it has a way of two straight lines, and no steps to four neighbours.
+PlanCase any_diagonal_lane() {
+  PlanCase plan_case;
+  const std::int32_t down = *rc::gen::inRange(1, 5);
+  const std::int32_t up = *rc::gen::inRange(1, 5);
+  const std::int32_t margin = 1;
+  plan_case.instance.map = GridMap(down + up + 1 + 2 * margin, std::max(down, up) + 1 + 2 * margin);
+  GridMap& map = plan_case.instance.map;
+  const std::int32_t bottom = map.height() - 1 - margin;
+  const auto row = [&](std::int32_t i) { return bottom - std::abs(i - down); };
+  for (std::size_t i = 0; i < map.cell_count(); ++i) map.set_blocked(map.cell(i), true);
+  for (std::int32_t i = 0; i <= down + up; ++i) {
+    for (const Cell beside : {Cell{0, 0}, Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
+      map.set_blocked({margin + i + beside.x, row(i) + beside.y}, false);
+    }
+  }
+  Agent agent;
+  agent.start = {margin, row(0)};
+  agent.goal = {margin + down + up, row(down + up)};
+  agent.radius_cells = 0.7;  // less than half the diagonal of a cell, more than half its side
+  plan_case.instance.agents = {agent};
+  note_case(plan_case);
+  return plan_case;
+}
+
 /// A plan in repair, all of its robots planned.
 struct InRepair {
   PlanCase plan_case;
   Solution solution;
+  PriorityOrder order;
   std::unique_ptr<SingleAgentPlanner> planner;
   std::unique_ptr<PartialPlan> plan;
   std::vector<Trajectory> fastest_paths;
@@ -86,6 +157,25 @@ struct InRepair {
   const Instance& instance() const { return plan_case.instance; }
   Neighbours neighbours() const { return {plan_case.instance, *plan, static_times_s, fastest_paths}; }
 };
+
+/// Fills in what follows from case, solution and order.
+std::unique_ptr<InRepair> completed(std::unique_ptr<InRepair> repaired) {
+  const Instance& instance = repaired->instance();
+  repaired->planner = single_agent_planner(instance, repaired->plan_case.options);
+  repaired->plan = std::make_unique<PartialPlan>(instance, 0, *repaired->planner);
+  for (const AgentIndex agent : repaired->order) {
+    repaired->plan->insert(agent, repaired->solution.trajectories[agent]);
+  }
+  PartialPlan nobody(instance, 0, *repaired->planner);
+  for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
+    SearchStatistics work;
+    auto alone = nobody.find(agent, {}, work);
+    repaired->fastest_paths.push_back(alone ? *alone : repaired->solution.trajectories[agent]);
+    repaired->static_times_s.push_back(distance(instance.agents[agent].start, instance.agents[agent].goal) /
+                                       instance.agents[agent].speed_cells_per_s);
+  }
+  return repaired;
+}
 
 std::unique_ptr<InRepair> any_in_repair() {
   auto repaired = std::make_unique<InRepair>();
@@ -100,23 +190,44 @@ std::unique_ptr<InRepair> any_in_repair() {
   const PlanResult result = plan(instance, options);
   RC_PRE(result.status == PlanStatus::kSolved);
   repaired->solution = result.solution;
-  repaired->planner = single_agent_planner(instance, options);
-  repaired->plan = std::make_unique<PartialPlan>(instance, 0, *repaired->planner);
-  for (const AgentIndex agent : result.order()) {
-    repaired->plan->insert(agent, result.solution.trajectories[agent]);
-  }
-  PartialPlan nobody(instance, 0, *repaired->planner);
-  for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
-    SearchStatistics work;
-    auto alone = nobody.find(agent, {}, work);
-    repaired->fastest_paths.push_back(alone ? *alone : result.solution.trajectories[agent]);
-    repaired->static_times_s.push_back(distance(instance.agents[agent].start, instance.agents[agent].goal) /
-                                       instance.agents[agent].speed_cells_per_s);
-  }
-  return repaired;
+  repaired->order = result.order();
+  return completed(std::move(repaired));
 }
 
-/// A loose box around where a robot is at some time near `time_s`.
+/// Robots that go to and fro in rows of their own, with long rests in between.
+std::unique_ptr<InRepair> any_in_rows() {
+  constexpr std::int32_t kWidth = 30;
+  constexpr std::int32_t kHeight = 10;
+  auto repaired = std::make_unique<InRepair>();
+  Instance& instance = repaired->plan_case.instance;
+  instance.map = GridMap(kWidth, kHeight);
+  std::vector<std::int32_t> rows(kHeight);
+  std::iota(rows.begin(), rows.end(), 0);
+  Random random(*rc::gen::arbitrary<std::uint64_t>());
+  random.shuffle(rows);
+  rows.resize(2 + random.below(7));
+  for (const std::int32_t row : rows) {
+    const auto any_place = [&] { return Cell{static_cast<std::int32_t>(random.below(kWidth)), row}; };
+    Trajectory trajectory{any_place(), {}};
+    for (auto legs = random.below(4); legs > 0; --legs) {
+      const double now_s = trajectory.end_s();
+      const Cell here = trajectory.end();
+      const double until_s = now_s + 1 + static_cast<double>(random.below(12));
+      trajectory.motions.push_back({now_s, until_s, here, here});
+      const Cell next = any_place();
+      if (next == here) continue;
+      trajectory.motions.push_back({until_s, until_s + distance(here, next), here, next});
+    }
+    repaired->order.push_back(instance.agents.size());
+    Agent& agent = instance.agents.emplace_back();
+    agent.start = trajectory.start;
+    agent.goal = trajectory.end();
+    repaired->solution.trajectories.push_back(std::move(trajectory));
+  }
+  return completed(std::move(repaired));
+}
+
+/// A box around where a robot is at some time near `time_s`.
 bool comes_near(const Trajectory& trajectory, Vec2 place, double time_s, double window_s, double cells) {
   const auto is_near = [&](Cell from, Cell to) {
     return std::min(from.x, to.x) - cells <= place.x && place.x <= std::max(from.x, to.x) + cells &&
@@ -129,6 +240,42 @@ bool comes_near(const Trajectory& trajectory, Vec2 place, double time_s, double 
     }
   }
   return trajectory.end_s() <= time_s + window_s && is_near(trajectory.end(), trajectory.end());
+}
+
+Vec2 place_at(const Trajectory& trajectory, double time_s) {
+  for (const TimedMotion& motion : trajectory.motions) {
+    if (time_s > motion.end_s || motion.end_s <= motion.begin_s) continue;
+    const double share = (time_s - motion.begin_s) / (motion.end_s - motion.begin_s);
+    return centre(motion.from) + (centre(motion.to) - centre(motion.from)) * share;
+  }
+  return centre(trajectory.end());
+}
+
+struct WindowChances {
+  std::vector<double> of;  ///< by robot: to be chosen beside the first
+  double nobody = 0;       ///< that nobody is near: then any may be chosen
+};
+
+/// For a moment of the first one's way, drawn uniformly.
+WindowChances window_chances(const std::vector<Trajectory>& trajectories, AgentIndex first) {
+  constexpr double kWindowCells = 3;
+  constexpr double kHalfWindowS = 3;
+  constexpr int kMoments = 500;
+  WindowChances chances{std::vector<double>(trajectories.size(), 0)};
+  for (int i = 0; i < kMoments; ++i) {
+    const double time_s = arrival_of(trajectories[first]) * (i + 0.5) / kMoments;
+    const Vec2 place = place_at(trajectories[first], time_s);
+    std::vector<AgentIndex> near;
+    for (AgentIndex other = 0; other < trajectories.size(); ++other) {
+      if (other != first && comes_near(trajectories[other], place, time_s, kHalfWindowS, kWindowCells)) {
+        near.push_back(other);
+      }
+    }
+    if (near.empty()) chances.nobody += 1.0 / kMoments;
+    for (const AgentIndex other : near)
+      chances.of[other] += 1.0 / kMoments / static_cast<double>(near.size());
+  }
+  return chances;
 }
 
 const PropertyRoom room("objectives", [] {
@@ -205,6 +352,34 @@ const PropertyRoom room("objectives", [] {
     RC_CLASSIFY(shortest > straight + kRounding, "round a corner");
     RC_CLASSIFY(bound < shortest - kRounding, "given up");
   });
+
+  passed &= property("a way's bound is the shortest way, however far aside that bends", [] {
+    const PlanCase plan_case = at_full_size(any_long_wall);
+    const Instance& instance = plan_case.instance;
+    const Agent& agent = instance.agents.front();
+    const LineOfSight sight(instance.map, agent.radius_cells);
+    const double shortest = shortest_way(instance.map, sight, agent.start, agent.goal);
+    RC_PRE(shortest < kForever);
+    RC_CLASSIFY(shortest > 1.1 * distance(agent.start, agent.goal), "far aside");
+    for (const double longer : {1.0, 1.001, 1.03, 1.2}) {
+      const double bound =
+          shortest_any_angle_cells(instance.map, sight, agent.start, agent.goal, longer * shortest);
+      RC_ASSERT(std::abs(bound - shortest) <= kRounding);
+    }
+  });
+
+  passed &=
+      property("a large body that has a way and no steps has its bound, without a way a straight one", [] {
+        PlanCase plan_case = at_full_size(any_diagonal_lane);
+        Instance& instance = plan_case.instance;
+        const Agent& agent = instance.agents.front();
+        const LineOfSight sight(instance.map, agent.radius_cells);
+        RC_ASSERT(shortest_grid_cells(instance.map, sight, agent.start, agent.goal, 2) == kForever);
+        const double shortest = shortest_way(instance.map, sight, agent.start, agent.goal);
+        RC_ASSERT(std::abs(lower_bound(instance, true, 2).makespan_s - shortest) <= kRounding);
+        const double straight = distance(agent.start, agent.goal);
+        RC_ASSERT(std::abs(lower_bound(instance, false, 2).makespan_s - straight) <= kRounding);
+      });
 
   passed &=
       property("lower bounds of an instance: of the shortest ways, or straight where that is too much", [] {
@@ -321,46 +496,54 @@ const PropertyRoom room("objectives", [] {
     }
   });
 
-  passed &= property("choose_neighbourhood: in a window are robots that are near at some time", [] {
-    const auto repaired = any_in_repair();
-    const std::size_t robots = repaired->instance().agents.size();
-    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-    Random random(seed);
-    const std::vector<AgentIndex> chosen =
-        choose_neighbourhood(RemovalRule::kWindow, repaired->neighbours(), 2, random);
-    RC_PRE(chosen.size() == 2u);
-    // Is there a moment of the first one's way at which another one is near, and is it chosen then?
-    const Trajectory& first = repaired->solution.trajectories[chosen[0]];
-    constexpr double kWindowCells = 3;
-    constexpr double kHalfWindowS = 3;
-    bool always_somebody = true;
-    bool chosen_is_near = false;
-    constexpr int kMoments = 64;
-    for (int i = 0; i <= kMoments; ++i) {
-      const double time_s = arrival_of(first) * i / kMoments;
-      const Vec2 place = [&] {
-        for (const TimedMotion& motion : first.motions) {
-          if (time_s > motion.end_s || motion.end_s <= motion.begin_s) continue;
-          const double share = (time_s - motion.begin_s) / (motion.end_s - motion.begin_s);
-          return centre(motion.from) + (centre(motion.to) - centre(motion.from)) * share;
+  passed &= property(
+      "choose_neighbourhood: each of the last five begins, and no other",
+      [] {
+        const auto repaired = at_full_size(any_in_rows);
+        const auto& trajectories = repaired->solution.trajectories;
+        std::vector<AgentIndex> last = repaired->order;
+        std::stable_sort(last.begin(), last.end(), [&](AgentIndex a, AgentIndex b) {
+          return arrival_of(trajectories[a]) > arrival_of(trajectories[b]);
+        });
+        last.resize(std::min<std::size_t>(last.size(), 5));
+        Random random(*rc::gen::arbitrary<std::uint64_t>());
+        std::set<AgentIndex> first;
+        constexpr int kDraws = 120;  // the chance that one of five is not drawn is 1e-11
+        for (int i = 0; i < kDraws; ++i) {
+          first.insert(choose_neighbourhood(RemovalRule::kLast, repaired->neighbours(), 1, random).front());
         }
-        return centre(first.end());
-      }();
-      constexpr double kLittleS = 0.5;
-      bool somebody = false;
-      for (AgentIndex other = 0; other < robots; ++other) {
-        if (other == chosen[0]) continue;
-        const Trajectory& path = repaired->solution.trajectories[other];
-        somebody =
-            somebody || comes_near(path, place, time_s, kHalfWindowS - kLittleS, kWindowCells - kLittleS);
-      }
-      always_somebody = always_somebody && somebody;
-      chosen_is_near = chosen_is_near || comes_near(repaired->solution.trajectories[chosen[1]], place, time_s,
-                                                    kHalfWindowS + kLittleS, kWindowCells + kLittleS);
-    }
-    RC_CLASSIFY(always_somebody, "somebody near at any time");
-    if (always_somebody) RC_ASSERT(chosen_is_near);
-  });
+        RC_ASSERT(first == std::set<AgentIndex>(last.begin(), last.end()));
+      },
+      kFewer);
+
+  passed &= property(
+      "choose_neighbourhood: in a window is who is near at a moment drawn, as often as that",
+      [] {
+        const auto repaired = at_full_size(any_in_rows);
+        const auto& trajectories = repaired->solution.trajectories;
+        const std::size_t robots = trajectories.size();
+        // By pairs: how often the second was chosen with the first.
+        std::vector<std::vector<double>> chosen(robots, std::vector<double>(robots, 0));
+        std::vector<double> draws(robots, 0);
+        Random random(*rc::gen::arbitrary<std::uint64_t>());
+        constexpr int kDraws = 1500;
+        for (int i = 0; i < kDraws; ++i) {
+          const auto both = choose_neighbourhood(RemovalRule::kWindow, repaired->neighbours(), 2, random);
+          ++draws[both.at(0)];
+          ++chosen[both[0]][both.at(1)];
+        }
+        for (AgentIndex first = 0; first < robots; ++first) {
+          const WindowChances chances = window_chances(trajectories, first);
+          const double tolerance = 3.5 * std::sqrt(draws[first]) + 0.03 * draws[first];  // seven deviations
+          for (AgentIndex other = 0; other < robots; ++other) {
+            const double least = chances.of[other] * draws[first];
+            RC_ASSERT(chosen[first][other] >= least - tolerance);
+            RC_ASSERT(chosen[first][other] <= least + chances.nobody * draws[first] + tolerance);
+          }
+          RC_CLASSIFY(chances.nobody < 0.5 && draws[first] > 200, "windows with others, often drawn");
+        }
+      },
+      kFewer);
 
   passed &= property("RuleRoulette: favours the rule that gains, gives up none, and knows no unit", [] {
     const auto winner = static_cast<RemovalRule>(*rc::gen::inRange(0, static_cast<int>(kRemovalRules)));

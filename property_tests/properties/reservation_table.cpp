@@ -325,6 +325,29 @@ const PropertyRoom room("reservation_table", [] {
     RC_CLASSIFY(delayed >= 10, "ten or more have to wait");
   });
 
+  passed &= property("earliest_departure: what comes within the inflated time counts, far away as it is", [] {
+    constexpr std::int32_t kLength = 24;
+    const GridMap map(kLength, 3);
+    const double margin_s = *any_of({1.0, 2.5, 4.0});
+    ReservationTable table(map, {0.25, 1, margin_s});
+    PlainTable twin{{}, margin_s};
+    const Displacement path(centre(Cell{0, 1}), centre(Cell{kLength - 1, *rc::gen::inRange(0, 3)}));
+    const double begin_s = *any_eighths(4);
+    const MovingDisk disk =
+        MovingDisk::moving(path, begin_s, begin_s + path.length / *any_of({1.0, 2.0, 0.5}), 0.25);
+    table.add(disk);
+    twin.disks.push_back(disk);
+    constexpr int kQueries = 20;
+    for (int i = 0; i < kQueries; ++i) {
+      const Cell from = *any_cell(kLength - 1, 3);
+      const Move move(Displacement(centre(from), centre(Cell{from.x + 1, from.y})), 1);
+      const double from_s = *any_eighths(24);
+      RC_LOG() << "from " << from << " at " << from_s << std::endl;
+      RC_ASSERT(table.earliest_departure(move, 0.25, from_s, kForever) ==
+                twin.earliest_departure(move, 0.25, from_s, kForever));
+    }
+  });
+
   passed &= property("earliest_departure: safe by distances, and nothing earlier on the lattice is", [] {
     int found = 0;
     int given_up = 0;

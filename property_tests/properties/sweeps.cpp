@@ -230,6 +230,142 @@ void expected_times_are_in_one_scale() {
   }
 }
 
+/// A sweep that is resumed does what its run lacks, and shows what that holds.
+void what_is_recorded_is_left_out() {
+  ExpandedSweep sweep = any_sweep();
+  for (NamedCase& named : sweep.cases) named.parameters.environment = "empty";
+  const auto repetitions = any_whole(1, 3);
+  deal(sweep, repetitions, {0, static_cast<std::size_t>(any_whole(1, 2))}, 1,
+       std::vector<double>(sweep.cases.size(), 1));
+  const ExpandedSweep before = sweep;
+  std::vector<db::RecordedCase> recorded;
+  for (const NamedCase& named : sweep.cases) {
+    if (any_whole(0, 3) == 0) continue;
+    db::RecordedCase& one = recorded.emplace_back();
+    one.parameters = case_row(named.parameters);
+    std::set<Planning> taken;
+    for (auto left = any_whole(0, 8); left > 0; --left) {
+      const Planning planning{any_whole(0, 5), any_whole(0, repetitions)};
+      if (!taken.insert(planning).second) continue;
+      db::ResultRow& row = one.rows.emplace_back(db::any_result());
+      row.position = planning.position;
+      row.repetition = planning.repetition;
+    }
+  }
+  leave_out(sweep, recorded);
+  RC_ASSERT(sweep.cases.size() == before.cases.size());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < sweep.cases.size(); ++i) {
+    const auto known = std::find_if(recorded.begin(), recorded.end(), [&](const db::RecordedCase& one) {
+      return one.parameters == case_row(sweep.cases[i].parameters);
+    });
+    std::vector<Planning> missing;
+    std::int64_t there = 0;
+    std::int64_t solved = 0;
+    for (const Planning& planning : before.cases[i].plannings) {
+      const db::ResultRow* found = nullptr;
+      for (std::size_t k = 0; known != recorded.end() && k < known->rows.size(); ++k) {
+        const db::ResultRow& row = known->rows[k];
+        if (row.position == planning.position && row.repetition == planning.repetition) found = &row;
+      }
+      if (found == nullptr) missing.push_back(planning);
+      there += found != nullptr;
+      solved += found != nullptr && found->status == db::ResultStatus::kSolved;
+    }
+    RC_ASSERT(sweep.cases[i].plannings == missing);
+    RC_ASSERT(sweep.cases[i].outcome.results() == there);
+    RC_ASSERT(sweep.cases[i].outcome.solved() == solved);
+    left += missing.size();
+    RC_CLASSIFY(there > 0 && !missing.empty(), "some of a case are there");
+  }
+  RC_ASSERT(count_left(sweep) == left);
+}
+
+/// As many tasks as keep each within its time, and no more.
+void tasks_take_as_long_as_asked() {
+  const ExpandedSweep sweep = any_sweep();
+  const auto repetitions = any_whole(1, 3);
+  std::vector<double> seconds;
+  double all_s = 0;
+  for (const NamedCase& named : sweep.cases) {
+    seconds.push_back(static_cast<double>(any_whole(0, 4000)));
+    all_s += seconds.back() * static_cast<double>(repetitions) *
+             static_cast<double>(sweep.sets[named.parameters.set].instances.size());
+  }
+  RC_ASSERT(seconds_of_all(sweep, repetitions, seconds) == all_s);  // whole numbers
+  const auto per_task_s = static_cast<double>(any_whole(1, 60));
+  const std::size_t tasks = tasks_for(all_s, per_task_s);
+  RC_ASSERT(tasks >= 1u && tasks <= 1000u);
+  if (tasks < 1000) RC_ASSERT(all_s <= per_task_s * static_cast<double>(tasks));
+  if (tasks > 1) RC_ASSERT(all_s > per_task_s * static_cast<double>(tasks - 1));
+  RC_CLASSIFY(tasks == 1000u, "as many as an array has");
+}
+
+/// Every other option stays, in its place; a value may be an argument of its own or follow a '='.
+void options_are_taken_out_with_their_values() {
+  std::vector<std::string> arguments = {"bench"};
+  std::vector<std::string> expected = {"bench"};
+  for (auto left = any_whole(0, 6); left > 0; --left) {
+    const bool goes = any_flag();
+    const std::string name = goes ? (any_flag() ? "--db" : "--tasks") : (any_flag() ? "--dbx" : "--task");
+    std::vector<std::string> words = {name, std::to_string(left)};
+    if (any_flag()) words = {name + "=" + std::to_string(left)};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    if (!goes) expected.insert(expected.end(), words.begin(), words.end());
+  }
+  RC_ASSERT(arguments_without(arguments, {"--db", "--tasks"}) == expected);
+}
+
+void tasks_are_what_their_programs_said() {
+  const ScratchFolder folder;
+  const auto tasks = static_cast<std::size_t>(any_whole(0, 9));
+  std::vector<std::size_t> done;
+  std::vector<std::size_t> missing;
+  std::vector<std::pair<std::size_t, int>> failed;
+  for (std::size_t task = 1; task <= tasks; ++task) {
+    // A signal that asks to stop is none of the task's own; SIGKILL is what ends one that takes too much
+    // memory.
+    const std::vector<std::pair<int, char>> kEnds = {
+        {0, 'd'}, {1, 'f'}, {70, 'f'}, {130, 'm'}, {143, 'm'}, {138, 'm'}, {137, 'f'}, {139, 'f'}, {-1, 'm'}};
+    const auto [code, end] =
+        kEnds[static_cast<std::size_t>(any_whole(0, static_cast<std::int64_t>(kEnds.size()) - 1))];
+    if (code >= 0)
+      RC_ASSERT(!write_file(exit_file(folder.path(), task).string(), std::to_string(code) + "\n"));
+    if (end == 'd') done.push_back(task);
+    if (end == 'm') missing.push_back(task);
+    if (end == 'f') failed.emplace_back(task, code);
+  }
+  const TaskStates states = states_of(folder.path(), tasks);
+  RC_ASSERT(states.done == done);
+  RC_ASSERT(states.missing == missing);
+  RC_ASSERT(states.failed == failed);
+}
+
+/// Read back they are the same numbers, in as few parts as there are gaps.
+void ranges_name_all_numbers() {
+  std::set<std::size_t> numbers;
+  for (auto left = any_whole(0, 9); left > 0; --left)
+    numbers.insert(static_cast<std::size_t>(any_whole(1, 14)));
+  const std::string text = ranges({numbers.begin(), numbers.end()});
+  std::set<std::size_t> read;
+  std::size_t parts = 0;
+  for (std::size_t at = 0; at < text.size(); ++parts) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, end - at);
+    const std::size_t dash = part.find('-');
+    const std::size_t last = std::stoul(dash == std::string::npos ? part : part.substr(dash + 1));
+    if (dash != std::string::npos) RC_ASSERT(last > std::stoul(part));
+    for (std::size_t number = std::stoul(part); number <= last; ++number) {
+      RC_ASSERT(read.insert(number).second);
+    }
+    at = end + 1;
+  }
+  RC_ASSERT(read == numbers);
+  std::size_t runs = 0;
+  for (const std::size_t number : numbers) runs += numbers.contains(number - 1) ? 0U : 1U;
+  RC_ASSERT(parts == runs);
+}
+
 // --- cases --------------------------------------------------------------------------
 
 /// Options that are set and read as texts.
@@ -608,6 +744,14 @@ const PropertyRoom room("sweeps", kCasesOfHistories, [] {
   passed &= property("a plan of tasks is read as it was written", plans_of_tasks_are_read_as_written, kFewer);
   passed &= property("expected times are those of the history, and guesses in their scale",
                      expected_times_are_in_one_scale, kFewer / 2);
+  passed &= property("a sweep that is resumed does what its run lacks, and shows what that holds",
+                     what_is_recorded_is_left_out);
+  passed &= property("as many tasks as keep each within its time, and no more", tasks_take_as_long_as_asked);
+  passed &= property("options are taken out of a command line with their values",
+                     options_are_taken_out_with_their_values);
+  passed &= property("a task is done, failed or missing by what its program said",
+                     tasks_are_what_their_programs_said);
+  passed &= property("ranges name all numbers, each run once", ranges_name_all_numbers);
   passed &= property("a suite is the product of its dimensions, each case once", suites_are_products, kFewer);
   passed &= property("a generated set holds the instances of its seed, and says what they are",
                      sets_hold_what_they_say, kFewer);

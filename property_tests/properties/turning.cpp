@@ -340,6 +340,45 @@ const PropertyRoom room("turning", [] {
         RC_CLASSIFY(one.statistics.expansions < other.statistics.expansions, "with fewer expansions");
       });
 
+  passed &= property("inflated times: no plan for a robot whose start is unsafe at once", [] {
+    PlanCase plan_case;
+    Instance& instance = plan_case.instance;
+    constexpr std::int32_t kSide = 7;
+    instance.map = GridMap(kSide, kSide);
+    Agent& agent = instance.agents.emplace_back();
+    agent.start = *any_cell(kSide, kSide);
+    agent.goal = *any_cell(kSide, kSide);
+    agent.radius_cells = *any_of({0.5, 0.25});
+    plan_case.options.rules.turns = *rc::gen::arbitrary<bool>();
+    plan_case.options.rules.inflate_time_s = *any_of({0.5, 1.0, 2.5});
+    DynamicObstacle& obstacle = instance.obstacles.emplace_back();
+    obstacle.trajectory.start = *any_cell(kSide, kSide);
+    const Cell to = *any_cell(kSide, kSide);
+    RC_PRE(to != obstacle.trajectory.start);
+    const double begin_s = *any_eighths(2);
+    const Cell from = obstacle.trajectory.start;
+    if (begin_s > 0) obstacle.trajectory.motions.push_back({0, begin_s, from, from});
+    obstacle.trajectory.motions.push_back(
+        {begin_s, begin_s + distance(from, to) / *any_of({1.0, 2.0}), from, to});
+    RC_PRE(!find_error(instance));
+    note_case(plan_case);
+    // How near the obstacle comes to the start within the inflated time.
+    const double reach = agent.radius_cells + obstacle.radius_cells;
+    double nearest = kForever;
+    constexpr int kMoments = 400;
+    const TimedMotion& motion = obstacle.trajectory.motions.back();
+    for (int i = 0; i <= kMoments; ++i) {
+      const double time_s = plan_case.options.rules.inflate_time_s * i / kMoments;
+      const double share = std::clamp((time_s - motion.begin_s) / (motion.end_s - motion.begin_s), 0.0, 1.0);
+      const Vec2 place = centre(from) + (centre(to) - centre(from)) * share;
+      nearest = std::min(nearest, norm(place - centre(agent.start)));
+    }
+    constexpr double kGrazeCells = 0.05;  // between two moments it comes no nearer by more
+    const bool is_unsafe = nearest < reach - kGrazeCells;
+    RC_CLASSIFY(is_unsafe, "unsafe");
+    if (is_unsafe) RC_ASSERT(plan(instance, plan_case.options).status == PlanStatus::kFailed);
+  });
+
   passed &= property("the validator finds a turn that is too short, left out, or the wrong way", [] {
     const Planned planned = any_solved();
     const std::optional<Stop> stop = any_turn(planned.result.solution);

@@ -10,8 +10,11 @@
 #include "planner/complete/complete_planner.hpp"
 #include "planner/improve/objective.hpp"
 #include "planner/reservation/reservation_table.hpp"
+#include "planner/retime/retime.hpp"
 #include "planner/retime/steps.hpp"
 #include "planner/search/sipp_search.hpp"
+#include "planner/solve/improve_stages.hpp"
+#include "planner/unit_moves/attempt.hpp"
 #include "planner/unit_moves/improve_unit_moves.hpp"
 #include "planner/unit_moves/route_search.hpp"
 #include "property_tests/support/assert_valid.hpp"
@@ -116,6 +119,21 @@ struct Routes {
   std::vector<CellId> goals;
 };
 
+std::vector<Route> routes_of(const Timetable& plan) {
+  std::vector<Route> routes;
+  for (RobotId robot = 0; robot < plan.robots(); ++robot) routes.push_back(plan.route(robot));
+  return routes;
+}
+
+UnitCost cost_of(const std::vector<Route>& routes) {
+  UnitCost cost;
+  for (const Route& route : routes) {
+    cost.flowtime += route.back().arrival;
+    cost.makespan = std::max(cost.makespan, route.back().arrival);
+  }
+  return cost;
+}
+
 double seconds(Tick tick, const Agent& agent) {
   return static_cast<double>(tick) / kTicksPerMove / agent.speed_cells_per_s;
 }
@@ -149,6 +167,27 @@ const PropertyRoom room("unit_moves", [] {
     RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
   });
 
+  passed &= property("improve_unit_moves (1): nor worse than a plan in which small robots follow closer", [] {
+    // All are taken for the largest.
+    Planned planned;
+    planned.plan_case = at_full_size([] { return make_crowd(*rc::gen::arbitrary<std::uint64_t>()); });
+    for (Agent& agent : planned.plan_case.instance.agents) {
+      agent.radius_cells = *rc::gen::element(0.125, 0.25, 0.5);
+    }
+    note_case(planned.plan_case);
+    planned.options.max_expansions = kMostSteps;
+    planned.result = plan_complete(planned.plan_case.instance, planned.options);
+    RC_PRE(planned.result.status == LacamStatus::kSolved);
+    const auto closer = retime(planned.plan_case.instance, planned.result.solution);
+    RC_PRE(closer && !closer->solution.trajectories.empty());
+    planned.options.improve = ImproveBudget{};
+    planned.options.improve->iterations = *rc::gen::inRange<std::uint64_t>(0, 20);
+    const std::optional<UnitImprovement> result =
+        improve_unit_moves(planned.plan_case.instance, closer->solution, planned.options);
+    RC_CLASSIFY(!result, "given up");
+    if (result) RC_ASSERT(flowtime_s(result->solution) <= flowtime_s(closer->solution));
+  });
+
   passed &= property("improve_unit_moves (2): valid for disks, and of unit moves", [] {
     const Planned planned = any_planned();
     const Instance& instance = planned.plan_case.instance;
@@ -166,6 +205,89 @@ const PropertyRoom room("unit_moves", [] {
     RC_ASSERT(one.order.order == same.order.order);
     RC_ASSERT(one.log.improvements == same.log.improvements);
     RC_ASSERT(one.statistics.expansions == same.statistics.expansions);
+  });
+
+  passed &= property("improve_unit_moves (3): the attempts of a round are different ones", [] {
+    Planned planned;
+    planned.plan_case = at_full_size([] { return make_crowd(*rc::gen::arbitrary<std::uint64_t>()); });
+    note_case(planned.plan_case);
+    RC_PRE(planned.plan_case.instance.agents.size() >= 6u);
+    planned.options.max_expansions = kMostSteps;
+    planned.result = plan_complete(planned.plan_case.instance, planned.options);
+    RC_PRE(planned.result.status == LacamStatus::kSolved);
+    planned.options.improve = ImproveBudget{};
+    std::vector<std::uint64_t> work;
+    for (std::uint64_t iterations = 0; iterations <= 8; ++iterations) {  // a round has eight
+      planned.options.improve->iterations = iterations;
+      const UnitImprovement some = improved(planned);
+      RC_PRE(some.log.iterations == iterations);
+      work.push_back(some.statistics.expansions);
+    }
+    bool differ = false;
+    for (std::size_t k = 2; k < work.size(); ++k) {
+      differ = differ || work[k] - work[k - 1] != work[1] - work[0];
+    }
+    RC_ASSERT(differ);
+  });
+
+  passed &= property(
+      "an attempt leaves the plan as it was; taken over it costs what is said, as far as allowed", [] {
+        const Planned planned = any_planned();
+        const Routes plan(planned.plan_case.instance, planned.result.solution);
+        SharedDistances distances(plan.grid, plan.starts, plan.goals);
+        UnitWorker worker(plan.moves, distances, plan.routes);
+        const Objective& objective = planned.options.objective;
+        const Roulette<kUnitWays> paths;
+        std::vector<Route> routes = plan.routes;
+        UnitCost cost = cost_of(routes);
+        const double slack = *rc::gen::element(1.0, 1.05, 1.3);
+        const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+        constexpr std::uint64_t kAttempts = 20;
+        for (std::uint64_t i = 0; i < kAttempts; ++i) {
+          const double before = value(objective, cost);
+          const UnitAttempt attempt =
+              worker.attempt({objective, paths, cost, slack * before}, Random(seed + i));
+          RC_ASSERT(routes_of(worker.plan()) == routes);
+          if (!attempt.is_accepted) continue;
+          std::vector<Route> changed = routes;
+          for (std::size_t k = 0; k < attempt.robots.size(); ++k)
+            changed[attempt.robots[k]] = attempt.found[k];
+          const double after = value(objective, cost_of(changed));
+          RC_ASSERT(after <= slack * before);
+          RC_ASSERT(attempt.gain == std::max(before - after, 0.0));
+          RC_CLASSIFY(after < before, "better");
+          RC_CLASSIFY(cost_of(changed).makespan < cost.makespan, "less makespan");
+          // Meanwhile less may be allowed than in the attempt.
+          const double worst = *rc::gen::element(slack * before, before, before - 1);
+          const bool is_taken = !worker.take_over({objective, paths, cost, worst}, attempt, cost).empty();
+          RC_ASSERT(is_taken == (after <= worst));
+          if (is_taken) routes = changed;
+          RC_ASSERT(routes_of(worker.plan()) == routes);
+          RC_ASSERT(cost.flowtime == cost_of(routes).flowtime);
+          RC_ASSERT(cost.makespan == cost_of(routes).makespan);
+        }
+      });
+
+  passed &= property("improvement in stages counts the work of both", [] {
+    Planned planned = any_planned();
+    const Instance& instance = planned.plan_case.instance;
+    PlannerOptions& options = planned.options;
+    PlanResult given;
+    given.status = PlanStatus::kSolved;
+    given.made_by = Method::kComplete;
+    given.solution = planned.result.solution;
+    given.trace.push_back({planned.result.order, std::nullopt, {}});
+    given.ssi_s = options.ssi_s;
+    given.ssi_kept_s = planned.result.ssi_kept_s;
+    const auto work = [&](std::uint64_t iterations) {
+      options.improve->iterations = iterations;
+      return improve_in_stages(instance, given, options, {}).statistics.expansions;
+    };
+    // Unit moves have most of the iterations, more than half of them in any case.
+    const std::uint64_t before = work(0);
+    const std::uint64_t after = work(20);
+    options.improve->iterations = 10;
+    RC_ASSERT(after >= before + improved(planned).statistics.expansions);
   });
 
   passed &= property("a search by unit moves arrives when SIPP over the same disks does", [] {
