@@ -195,9 +195,6 @@ int collect(const TaskArguments& arguments) {
   const fs::path folder = arguments.folder;
   const bench::TaskPlan plan = SIPPLAB_TRY_OR(fail, bench::read_task_plan(folder));
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
-  std::size_t files = 0;
-  std::int64_t added = 0;
-  std::vector<std::string> unread;
   std::vector<fs::path> sources;
   for (std::size_t task = 1; task <= plan.tasks; ++task) {
     std::error_code error;
@@ -205,12 +202,10 @@ int collect(const TaskArguments& arguments) {
       sources.push_back(bench::task_database(folder, task));
     }
   }
-  SIPPLAB_TRY_OR(fail, db::merge_files(database, sources, [&](const fs::path&, const auto& report) {
-                   if (!report) return unread.push_back(report.error().message);
-                   ++files;
-                   added += report->rows_of("result");
-                 }));
-  for (const std::string& line : unread) diagnose(line);
+  const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, sources));
+  for (const db::Error& error : report.refused) diagnose(error.message);
+  const std::size_t files = sources.size() - report.refused.size();
+  const std::int64_t added = report.rows_of("result");
   const TaskStates states = states_of(folder, plan);
   say_failed(states);
   const auto sweeps =

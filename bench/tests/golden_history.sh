@@ -44,8 +44,10 @@ bench --repetitions 2 --shard 2/2 --db b.db
 refused 'expected --resume to go on with it, or --sweep' bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 --repetitions 2 --shard 2/2 --db b.db
 expect 0 merge a.db
 equal "$(ask 'SELECT shard, status FROM v_sweeps')" "1/2|finished" "one part"
-expect 0 merge a.db b.db
-says '^b.db: 0 runs, [0-9]+ cells, [0-9]+ results'
+echo 'a letter' >text.db
+expect 2 merge a.db text.db b.db
+says '^2 files: 0 runs, [0-9]+ cells, [0-9]+ results'
+says '^text.db: not a database, expected a sipplab history$' err
 equal "$(ask 'SELECT count(*), shard, status, missing, attempts, machines FROM v_sweeps')" "1||finished|0|2|1" "the sweep of two parts"
 ask "$outcomes" >merged
 cmp -s whole merged || complain "two parts are not what one process makes"

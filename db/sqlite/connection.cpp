@@ -63,6 +63,17 @@ Result<Done> Connection::execute(const std::string& sql, std::string_view doing)
   return Done{};
 }
 
+Result<Done> Connection::attach_copy(const Connection& other, const char* schema, std::string_view doing) {
+  SIPPLAB_TRY(execute(fmt::format("ATTACH ':memory:' AS {}", schema), doing));
+  sqlite3_int64 size = 0;
+  unsigned char* bytes = sqlite3_serialize(other.raw(), "main", &size, 0);
+  const int code = bytes == nullptr ? SQLITE_NOMEM
+                                    : sqlite3_deserialize(handle_->db, schema, bytes, size, size,
+                                                          SQLITE_DESERIALIZE_FREEONCLOSE);
+  if (code != SQLITE_OK) return Unexpected{describe(*handle_, code, doing)};
+  return Done{};
+}
+
 Result<std::int64_t> Connection::query_int(const std::string& sql, std::string_view doing) {
   auto statement = SIPPLAB_TRY(Statement::prepare(*this, sql, doing));
   const auto row = SIPPLAB_TRY(statement.step());
