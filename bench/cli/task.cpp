@@ -130,10 +130,9 @@ int run_task(const TaskArguments& arguments) {
     command.push_back(argument);
   }
   const int code = run_again(std::move(command));
-  if (const auto failed = write_file(exit_file(folder, task).string(), std::to_string(code) + "\n")) {
-    return fail(failed->message());
-  }
-  return code;
+  const auto failed = write_file(exit_file(folder, task).string(), std::to_string(code) + "\n");
+  // What failed has said why: mostly the same.
+  return failed && code == kSuccess ? fail(failed->message()) : code;
 }
 
 /// "1-3,7"
