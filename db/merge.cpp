@@ -464,8 +464,6 @@ class MergeOfFiles {
 
   Result<Done> begin_gathering() {
     auto connection = SIPPLAB_TRY(Connection::open_in_memory());
-    // Small pages: a file changes a thousand of them, and each is kept until the file is merged completely.
-    SIPPLAB_TRY(connection.execute("PRAGMA page_size = 1024", kMerging));
     SIPPLAB_TRY(migrate(connection, migrations()));
     // Whoever counts results counts them in the history.
     SIPPLAB_TRY(connection.execute(

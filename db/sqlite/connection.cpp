@@ -53,7 +53,8 @@ Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode 
 }
 
 Result<Connection> Connection::open_in_memory() {
-  return open(":memory:", "a database in memory", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  return open(":memory:", "a database in memory",
+              SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_URI);
 }
 
 Result<Done> Connection::execute(const std::string& sql, std::string_view doing) {
