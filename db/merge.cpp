@@ -5,10 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "db/migrate.hpp"
 #include "db/rows.hpp"
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
@@ -117,14 +119,20 @@ class Merge {
 
   Result<MergeReport> run() {
     // An attempt is written together with its results: where it is as it was, so are they.
-    SIPPLAB_TRY(empty_table("temp.changed", "id INTEGER PRIMARY KEY, run_id INTEGER"));
+    SIPPLAB_TRY(empty_table("temp.changed", "(id INTEGER PRIMARY KEY, run_id INTEGER)"));
     SIPPLAB_TRY(
         run("INSERT INTO temp.changed SELECT s.id, s.run_id FROM shard.attempt AS s WHERE NOT EXISTS "
             "(SELECT 1 FROM main.attempt AS d WHERE d.uuid = s.uuid "
             "AND (d.ended_utc, d.status, d.cpu_time_ns) = (s.ended_utc, s.status, s.cpu_time_ns))"));
+    SIPPLAB_TRY(empty_table("temp.fresh",
+                            "(cell_id INTEGER, instance_id INTEGER, position INTEGER, repetition INTEGER, "
+                            "PRIMARY KEY (cell_id, instance_id, position, repetition)) WITHOUT ROWID"));
+    SIPPLAB_TRY(find_filled_tables());
     for (const TableShape& table : tables_) {
       if (table.name == kKeptByTriggers) continue;
-      SIPPLAB_TRY(merge_table(table));
+      if (table.has_key)
+        SIPPLAB_TRY(empty_table(key_map(table), "(old INTEGER PRIMARY KEY, new INTEGER NOT NULL)"));
+      if (filled_.contains(table.name)) SIPPLAB_TRY(merge_table(table));
     }
     SIPPLAB_TRY(bring_up_to_date());
     SIPPLAB_TRY(settle());
@@ -132,6 +140,22 @@ class Merge {
   }
 
  private:
+  /// Most files fill a third of the tables, and compiling SQL is most of what a small one takes.
+  Result<Done> find_filled_tables() {
+    std::string sql;
+    for (const TableShape& table : tables_) {
+      sql += fmt::format("{}EXISTS (SELECT 1 FROM shard.\"{}\")", sql.empty() ? "SELECT " : ", ", table.name);
+    }
+    auto select = SIPPLAB_TRY(Statement::prepare(connection_, sql, kMerging));
+    SIPPLAB_TRY(select.step());
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      if (select.integer(static_cast<int>(i)) != 0) filled_.insert(tables_[i].name);
+    }
+    return Done{};
+  }
+
+  static std::string key_map(const TableShape& table) { return fmt::format("temp.\"key_{}\"", table.name); }
+
   const TableShape* find(const std::string& name) const {
     const auto found = std::find_if(tables_.begin(), tables_.end(),
                                     [&name](const TableShape& table) { return table.name == name; });
@@ -152,8 +176,13 @@ class Merge {
 
   /// Rows of the source with keys of the destination: expressions and joins.
   struct Source {
-    std::vector<std::string> expressions;
+    std::vector<std::string> expressions;  ///< of each column of the table
     std::string from;
+
+    const std::string& expression(const TableShape& table, const std::string& column) const {
+      const auto at = std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
+      return expressions[static_cast<std::size_t>(at)];
+    }
   };
   Source source_of(const TableShape& table) const {
     Source source;
@@ -189,9 +218,6 @@ class Merge {
     // Results of a cell that is new come with it; of one that is not, those of attempts with news may be
     // missing. Millions of others need not be looked up.
     if (table.name == "result") {
-      SIPPLAB_TRY(empty_table("temp.fresh",
-                              "cell_id INTEGER, instance_id INTEGER, position INTEGER, repetition INTEGER, "
-                              "PRIMARY KEY (cell_id, instance_id, position, repetition)"));
       SIPPLAB_TRY(run(fmt::format(
           "INSERT INTO temp.fresh SELECT m_cell_id.new AS cell_id, m_instance_id.new AS instance_id, "
           "s.position, s.repetition FROM {} WHERE m_cell_id.new <= {} AND s.attempt_id IN (SELECT id FROM "
@@ -213,37 +239,45 @@ class Merge {
           "AND d.id <= {})",
           last_cell_);
     }
-    const std::string sql = fmt::format(
-        "INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING", table.name,
-        columns, expressions, source.from, condition, table.has_key ? " ORDER BY s.id" : "");
+    const std::string sql =
+        fmt::format("INSERT INTO main.\"{}\" ({}) SELECT {} FROM {} WHERE {}{} ON CONFLICT DO NOTHING",
+                    table.name, columns, expressions, source.from, condition, order_of(table, source));
     SIPPLAB_TRY(run(sql));
     const std::int64_t added = connection_.changes();
     if (added > 0) report_.added.emplace_back(table.name, added);
     return table.has_key ? map_keys(table, source) : Result<Done>{Done{}};
   }
 
+  /// In which the pages of the destination lie.
+  static std::string order_of(const TableShape& table, const Source& source) {
+    if (table.has_key) return " ORDER BY s.id";
+    std::string order;
+    if (table.unique.empty()) return order;
+    for (const std::string& column : table.unique.front()) {
+      order += fmt::format("{} {}", order.empty() ? " ORDER BY" : ",", source.expression(table, column));
+    }
+    return order;
+  }
+
   /// Which key a row of the source has here.
   Result<Done> map_keys(const TableShape& table, const Source& source) {
-    const std::string map = fmt::format("temp.\"key_{}\"", table.name);
-    SIPPLAB_TRY(empty_table(map, "old INTEGER PRIMARY KEY, new INTEGER NOT NULL"));
     for (const auto& key : table.unique) {
       std::string same;
       for (const std::string& column : key) {
-        const auto at = std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
         same += fmt::format("{}d.\"{}\" = {}", same.empty() ? "" : " AND ", column,
-                            source.expressions[static_cast<std::size_t>(at)]);
+                            source.expression(table, column));
       }
       // CROSS JOIN: each row of the source looks for itself through the index.
       SIPPLAB_TRY(run(
           fmt::format("INSERT OR IGNORE INTO {} SELECT s.id, d.id FROM {} CROSS JOIN main.\"{}\" AS d ON {}",
-                      map, source.from, table.name, same)));
+                      key_map(table), source.from, table.name, same)));
     }
     return Done{};
   }
 
   /// What may have changed in rows that both have.
   Result<Done> bring_up_to_date() {
-    constexpr const char* kUpdates[] = {
+    constexpr std::string_view kUpdates[] = {
         "UPDATE main.commit_ SET ancestor_count = max(commit_.ancestor_count, s.ancestor_count), "
         "first_parent_count = max(commit_.first_parent_count, s.first_parent_count) "
         "FROM shard.commit_ AS s WHERE s.hash = commit_.hash AND (s.ancestor_count > commit_.ancestor_count "
@@ -294,8 +328,10 @@ class Merge {
         "WHERE life.finding_id = finding.id AND EXISTS (SELECT 1 FROM shard.finding AS s "
         "WHERE s.target = finding.target AND s.signature = finding.signature)",
     };
-    for (const char* sql : kUpdates) {
-      SIPPLAB_TRY(connection_.execute(sql, kMerging));
+    constexpr std::size_t kName = std::string_view("UPDATE main.").size();
+    for (const std::string_view sql : kUpdates) {
+      if (!filled_.contains(sql.substr(kName, sql.find(' ', kName) - kName))) continue;
+      SIPPLAB_TRY(connection_.execute(std::string(sql), kMerging));
     }
     return Done{};
   }
@@ -312,7 +348,7 @@ class Merge {
         "FROM (SELECT cell_id, count(*) AS n FROM temp.fresh GROUP BY cell_id) AS more, "
         "temp.key_cell AS m JOIN shard.cell AS s ON s.id = m.old WHERE more.cell_id = cell.id AND m.new = "
         "cell.id",
-        // Made again by summarise_cells(): reading a cell for each of a thousand files would take long.
+        // Made again by summarise_cells().
         "DELETE FROM main.cell_summary WHERE (case_id, run_id) IN "
         "(SELECT case_id, run_id FROM main.cell WHERE id IN (SELECT cell_id FROM temp.fresh))",
         "UPDATE main.run SET started_utc = min(run.started_utc, s.started_utc), "
@@ -330,9 +366,9 @@ class Merge {
   }
 
   /// Of this merge; it may be there from the one before.
-  Result<Done> empty_table(const std::string& name, const char* columns) {
+  Result<Done> empty_table(const std::string& name, const char* definition) {
     SIPPLAB_TRY(
-        connection_.execute(fmt::format("CREATE TABLE IF NOT EXISTS {} ({})", name, columns), kMerging));
+        connection_.execute(fmt::format("CREATE TABLE IF NOT EXISTS {} {}", name, definition), kMerging));
     return connection_.execute("DELETE FROM " + name, kMerging);
   }
 
@@ -345,6 +381,7 @@ class Merge {
   Connection& connection_;
   std::vector<TableShape> tables_;
   std::string origin_;
+  std::set<std::string, std::less<>> filled_;  ///< tables of the source that have rows
   std::int64_t last_cell_ = 0;
   MergeReport report_;
 };
@@ -364,13 +401,112 @@ Result<Done> attach(Connection& connection, const fs::path& source) {
                      fs::absolute(source).string());
 }
 
+/// Merges what is attached, in one transaction, and detaches it. A history gets its summaries.
 Result<MergeReport> merge_attached(Connection& connection, const std::vector<TableShape>& tables,
-                                   const std::string& origin) {
-  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
-  auto report = SIPPLAB_TRY(Merge(connection, tables, origin).run());
-  SIPPLAB_TRY(transaction.commit());
+                                   const std::string& origin, bool is_history) {
+  auto report = [&]() -> Result<MergeReport> {
+    auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
+    auto merged = SIPPLAB_TRY(Merge(connection, tables, origin).run());
+    if (is_history) SIPPLAB_TRY(summarise_cells(connection));
+    SIPPLAB_TRY(transaction.commit());
+    return merged;
+  }();
+  // A file that stays attached is in the way of the next one.
+  const auto detached = connection.execute("DETACH shard", kMerging);
+  if (report && !detached) return Unexpected{detached.error()};
   return report;
 }
+
+/// Many files merged into one history. Each of a thousand parts of a sweep has rows for pages all over it; in
+/// memory they come together first, and are written many files in one transaction, in the order of the pages.
+class MergeOfFiles {
+ public:
+  MergeOfFiles(Database& database, std::vector<TableShape> tables)
+      : database_(database), tables_(std::move(tables)) {}
+
+  Result<Done> add(const fs::path& source) {
+    std::error_code code;
+    if (fs::equivalent(source, database_.path(), code)) {
+      refuse({ErrorKind::kBadInput,
+              fmt::format("{}: merged into itself, expected another file", source.string())});
+      return Done{};
+    }
+    const bool is_large = fs::file_size(source, code) > kLargeFileBytes && !code;
+    if (is_large) SIPPLAB_TRY(write());
+    if (!is_large && !gathered_) SIPPLAB_TRY(begin_gathering());
+    auto report = merge_file(source, is_large);
+    if (!report) {
+      refuse(report.error());
+    } else if (is_large) {
+      count(*report);
+    }
+    if (is_large || SIPPLAB_TRY(gathered_bytes()) < kGatheredBytes) return Done{};
+    return write();
+  }
+
+  /// What was gathered; REQUIRES to be called at the end.
+  Result<Done> write() {
+    if (!gathered_) return Done{};
+    Connection& connection = database_.connection();
+    SIPPLAB_TRY(connection.attach_copy(*gathered_, "shard", kMerging));
+    count(SIPPLAB_TRY(merge_attached(connection, tables_, "", true)));
+    gathered_.reset();
+    return Done{};
+  }
+
+  MergeReport& report() { return report_; }
+
+ private:
+  /// Larger ones are merged as they are: it is not worth the memory.
+  static constexpr std::uintmax_t kLargeFileBytes = 8 << 20;
+  /// Of some 800,000 results, some seconds of merging.
+  static constexpr std::int64_t kGatheredBytes = 64 << 20;
+
+  Result<Done> begin_gathering() {
+    auto connection = SIPPLAB_TRY(Connection::open_in_memory());
+    SIPPLAB_TRY(migrate(connection, migrations()));
+    // Whoever counts results counts them in the history.
+    SIPPLAB_TRY(connection.execute(
+        "DROP TRIGGER result_counts; PRAGMA foreign_keys = ON; PRAGMA temp_store = MEMORY", kMerging));
+    gathered_ = std::move(connection);
+    return Done{};
+  }
+
+  Result<std::int64_t> gathered_bytes() {
+    return gathered_->query_int("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size",
+                                kMerging);
+  }
+
+  Result<MergeReport> merge_file(const fs::path& source, bool is_large) {
+    Connection& destination = is_large ? database_.connection() : *gathered_;
+    auto report = [&]() -> Result<MergeReport> {
+      SIPPLAB_TRY(attach(destination, source));
+      return merge_attached(destination, tables_, source.string(), is_large);
+    }();
+    if (report || report.error().message.rfind(source.string(), 0) == 0) return report;
+    return Unexpected{Error{report.error().kind,
+                            fmt::format("{}: not merged: {}", source.string(), report.error().message)}};
+  }
+
+  void refuse(Error error) { report_.refused.push_back(std::move(error)); }
+
+  void count(const MergeReport& more) {
+    for (const auto& [table, rows] : more.added) {
+      const auto found = std::find_if(report_.added.begin(), report_.added.end(),
+                                      [&table = table](const auto& one) { return one.first == table; });
+      if (found == report_.added.end()) {
+        report_.added.emplace_back(table, rows);
+      } else {
+        found->second += rows;
+      }
+    }
+  }
+
+  Database& database_;
+  std::vector<TableShape> tables_;
+  MergeReport report_;
+  std::optional<Connection> gathered_;
+};
 
 }  // namespace
 
@@ -381,39 +517,17 @@ std::int64_t MergeReport::rows_of(const std::string& table) const {
   return 0;
 }
 
-namespace {
-
-Result<MergeReport> merge_one(Database& database, const std::vector<TableShape>& tables,
-                              const fs::path& source) {
-  std::error_code code;
-  if (fs::equivalent(source, database.path(), code)) {
-    return Unexpected{Error{ErrorKind::kBadInput,
-                            fmt::format("{}: merged into itself, expected another file", source.string())}};
-  }
-  Connection& connection = database.connection();
-  SIPPLAB_TRY(attach(connection, source));
-  auto report = merge_attached(connection, tables, source.string());
-  // A file that stays attached is in the way of the next one.
-  const auto detached = connection.execute("DETACH shard", kMerging);
-  if (report && !detached) return Unexpected{detached.error()};
-  return report;
+Result<MergeReport> merge_into(Database& database, const std::vector<fs::path>& sources) {
+  MergeOfFiles merge(database, SIPPLAB_TRY(tables_of(database.connection())));
+  for (const fs::path& source : sources) SIPPLAB_TRY(merge.add(source));
+  SIPPLAB_TRY(merge.write());
+  return std::move(merge.report());
 }
-
-}  // namespace
 
 Result<MergeReport> merge_into(Database& database, const fs::path& source) {
-  Result<MergeReport> report = MergeReport{};
-  SIPPLAB_TRY(merge_files(database, {source}, [&report](const fs::path&, const Result<MergeReport>& merged) {
-    report = merged;
-  }));
+  auto report = SIPPLAB_TRY(merge_into(database, std::vector{source}));
+  if (!report.refused.empty()) return Unexpected{report.refused.front()};
   return report;
-}
-
-Result<Done> merge_files(Database& database, const std::vector<fs::path>& sources,
-                         const std::function<void(const fs::path&, const Result<MergeReport>&)>& merged) {
-  const auto tables = SIPPLAB_TRY(tables_of(database.connection()));
-  for (const fs::path& source : sources) merged(source, merge_one(database, tables, source));
-  return summarise_cells(database.connection());
 }
 
 }  // namespace sipplab::db

@@ -130,11 +130,9 @@ Result<Done> summarise_cells(sqlite::Connection& connection) {
                                  "WHERE cell_summary.run_id IS NULL",
                                  kSummarising));
   const auto cells = SIPPLAB_TRY(select.collect([](const sqlite::Statement& row) { return row.integer(0); }));
-  if (cells.empty()) return Done{};
-  auto transaction = SIPPLAB_TRY(sqlite::Transaction::begin(connection));
   auto summariser = SIPPLAB_TRY(CellSummariser::prepare(connection));
   for (const std::int64_t cell : cells) SIPPLAB_TRY(summariser.summarise(cell));
-  return transaction.commit();
+  return Done{};
 }
 
 Result<Done> rebuild_summaries(sqlite::Connection& connection) {

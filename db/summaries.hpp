@@ -45,7 +45,7 @@ Result<std::vector<CaseTime>> case_times(Database& database);
 /// which that is true. Reads all results.
 Result<std::int64_t> count_stale_summaries(sqlite::Connection& connection);
 
-/// Makes the summaries that are missing, in one transaction.
+/// Makes the summaries that are missing. REQUIRES: a transaction.
 Result<Done> summarise_cells(sqlite::Connection& connection);
 
 /// Computes all summaries again, in one transaction.

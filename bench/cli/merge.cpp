@@ -25,14 +25,14 @@ struct MergeArguments {
   bool json = false;
 };
 
-std::string summary(const std::string& file, const db::MergeReport& report) {
-  if (report.added.empty()) return file + ": nothing new\n";
+std::string summary(std::size_t files, const db::MergeReport& report) {
+  if (report.added.empty()) return fmt::format("{} files: nothing new\n", files);
   std::int64_t others = 0;
   for (const auto& [table, rows] : report.added) {
     if (table != "run" && table != "cell" && table != "result") others += rows;
   }
-  return fmt::format("{}: {} runs, {} cells, {} results and {} other rows new\n", file, report.rows_of("run"),
-                     report.rows_of("cell"), report.rows_of("result"), others);
+  return fmt::format("{} files: {} runs, {} cells, {} results and {} other rows new\n", files,
+                     report.rows_of("run"), report.rows_of("cell"), report.rows_of("result"), others);
 }
 
 int run_merge(const MergeArguments& arguments) {
@@ -44,18 +44,19 @@ int run_merge(const MergeArguments& arguments) {
     }
   }
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
-  nlohmann::ordered_json document;
-  document["database"] = database.path().string();
-  document["merged"] = nlohmann::ordered_json::array();
-  for (const std::string& file : arguments.files) {
-    const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, file));
+  const std::vector<std::filesystem::path> files(arguments.files.begin(), arguments.files.end());
+  const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, files));
+  int code = kSuccess;
+  for (const db::Error& error : report.refused) code = fail(error);
+  const std::size_t merged = files.size() - report.refused.size();
+  if (arguments.json) {
     nlohmann::ordered_json added = nlohmann::ordered_json::object();
     for (const auto& [table, rows] : report.added) added[table] = rows;
-    document["merged"].push_back({{"file", file}, {"added", added}});
-    if (!arguments.json) print(summary(file, report));
+    print_json({{"database", database.path().string()}, {"files", merged}, {"added", added}});
+  } else if (merged > 0) {
+    print(summary(merged, report));
   }
-  if (arguments.json) print_json(document);
-  return kSuccess;
+  return code;
 }
 
 }  // namespace
@@ -68,8 +69,8 @@ Command add_merge_command(CLI::App& program) {
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");
   command->footer(
-      "Each file is one transaction. Runs are told apart by their UUID; each remembers the file it came "
-      "from.");
+      "A file is merged completely or not at all; one that cannot be read is named, and the others are "
+      "merged. Runs are told apart by their UUID; each remembers the file it came from.");
   return {command, [arguments] { return run_merge(*arguments); }};
 }
 

@@ -111,10 +111,9 @@ int run_task(const TaskArguments& arguments) {
     command.push_back(argument);
   }
   const int code = run_again(std::move(command));
-  if (const auto failed = write_file(bench::exit_file(folder, task).string(), std::to_string(code) + "\n")) {
-    return fail(failed->message());
-  }
-  return code;
+  const auto failed = write_file(bench::exit_file(folder, task).string(), std::to_string(code) + "\n");
+  // What failed has said why: mostly the same.
+  return failed && code == kSuccess ? fail(failed->message()) : code;
 }
 
 void say_failed(const bench::TaskStates& states) {
@@ -141,9 +140,6 @@ int collect(const TaskArguments& arguments) {
   const fs::path folder = arguments.folder;
   const bench::TaskPlan plan = SIPPLAB_TRY_OR(fail, bench::read_task_plan(folder));
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
-  std::size_t files = 0;
-  std::int64_t added = 0;
-  std::vector<std::string> unread;
   std::vector<fs::path> sources;
   for (std::size_t task = 1; task <= plan.tasks; ++task) {
     std::error_code error;
@@ -151,12 +147,10 @@ int collect(const TaskArguments& arguments) {
       sources.push_back(bench::task_database(folder, task));
     }
   }
-  SIPPLAB_TRY_OR(fail, db::merge_files(database, sources, [&](const fs::path&, const auto& report) {
-                   if (!report) return unread.push_back(report.error().message);
-                   ++files;
-                   added += report->rows_of("result");
-                 }));
-  for (const std::string& line : unread) diagnose(line);
+  const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, sources));
+  for (const db::Error& error : report.refused) diagnose(error.message);
+  const std::size_t files = sources.size() - report.refused.size();
+  const std::int64_t added = report.rows_of("result");
   const bench::TaskStates states = bench::states_of(folder, plan.tasks);
   say_failed(states);
   const auto sweeps =

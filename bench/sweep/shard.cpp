@@ -35,6 +35,40 @@ std::vector<Dealt> all_plannings(const ExpandedSweep& sweep, std::int64_t repeti
   return all;
 }
 
+/// What lies in one shard, by places in the shuffled order.
+struct Piece {
+  double seconds = 0;
+  std::vector<std::size_t> plannings;
+};
+
+/// Instances with all their plannings are pieces if a shard gets so many of them at least, by seconds: then
+/// loads differ by an eighth of the average at most.
+constexpr double kInstancesPerShard = 8;
+
+/// In the order of their first plannings.
+std::vector<Piece> pieces_of(const ExpandedSweep& sweep, const std::vector<Dealt>& all,
+                             const std::vector<double>& seconds, std::size_t shards) {
+  std::vector<Piece> instances;
+  std::vector<Piece> plannings;
+  std::map<std::pair<std::size_t, std::int64_t>, std::size_t>
+      place;  // of an instance: its set, and where in it
+  double total = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double one = seconds[all[i].in_case];
+    const std::pair key(sweep.cases[all[i].in_case].parameters.set, all[i].planning.position);
+    const auto [found, is_new] = place.emplace(key, instances.size());
+    if (is_new) instances.emplace_back();
+    instances[found->second].seconds += one;
+    instances[found->second].plannings.push_back(i);
+    plannings.push_back({one, {i}});
+    total += one;
+  }
+  const bool small = std::all_of(instances.begin(), instances.end(), [&](const Piece& instance) {
+    return instance.seconds * kInstancesPerShard * static_cast<double>(shards) <= total;
+  });
+  return small && total > 0 ? instances : plannings;
+}
+
 }  // namespace
 
 std::optional<Shard> parse_shard(const std::string& text) {
@@ -71,21 +105,19 @@ void deal(ExpandedSweep& sweep, std::int64_t repetitions, const Shard& shard, st
           const std::vector<double>& seconds) {
   std::vector<Dealt> all = all_plannings(sweep, repetitions);
   Random(seed).shuffle(all);
-  std::vector<std::size_t> longest_first(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) longest_first[i] = i;
-  std::stable_sort(longest_first.begin(), longest_first.end(), [&](std::size_t a, std::size_t b) {
-    return seconds[all[a].in_case] > seconds[all[b].in_case];
-  });
+  std::vector<Piece> pieces = pieces_of(sweep, all, seconds, shard.count);
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.seconds > b.seconds; });
   // By seconds, then by the number of plannings, which is what counts among the shortest.
   using Load = std::tuple<double, std::size_t, std::size_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (std::size_t i = 0; i < shard.count; ++i) loads.emplace(0.0, 0, i);
   std::vector<std::size_t> mine;
-  for (const std::size_t planning : longest_first) {
+  for (const Piece& piece : pieces) {
     const auto [load, plannings, index] = loads.top();
     loads.pop();
-    loads.emplace(load + seconds[all[planning].in_case], plannings + 1, index);
-    if (index == shard.index) mine.push_back(planning);
+    loads.emplace(load + piece.seconds, plannings + piece.plannings.size(), index);
+    if (index == shard.index) mine.insert(mine.end(), piece.plannings.begin(), piece.plannings.end());
   }
   std::sort(mine.begin(), mine.end());
   std::vector<NamedCase> kept;

@@ -34,7 +34,9 @@ void deal_all(ExpandedSweep& sweep, std::int64_t repetitions);
 /// Gives each case those of its plannings that lie in the shard, and leaves out cases of which none does.
 /// Instances and repetitions of a case are dealt out like any others: in an order shuffled by `seed`, the
 /// longest first, each to the shard that has the least to do. `seconds`: expected of a planning of each case.
-/// Within a shard cases and plannings stay in shuffled order, so that one that is cut off favours no case.
+/// If there are many more instances than shards, all plannings of an instance lie in one shard, where what
+/// they share (distances, lower bounds) is computed once. Within a shard cases and plannings stay in shuffled
+/// order, so that one that is cut off favours no case.
 void deal(ExpandedSweep& sweep, std::int64_t repetitions, const Shard& shard, std::uint64_t seed,
           const std::vector<double>& seconds);
 

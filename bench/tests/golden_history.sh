@@ -39,8 +39,10 @@ bench --repetitions 2 --shard 2/2 --db b.db
 refused 'expected --resume to go on with it, or --sweep' bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 --repetitions 2 --shard 2/2 --db b.db
 expect 0 merge a.db
 equal "$(ask 'SELECT shard, status FROM v_sweeps')" "1/2|finished" "one part"
-expect 0 merge a.db b.db
-says '^b.db: 0 runs, [0-9]+ cells, [0-9]+ results'
+echo 'a letter' >text.db
+expect 2 merge a.db text.db b.db
+says '^2 files: 0 runs, [0-9]+ cells, [0-9]+ results'
+says '^text.db: not a database, expected a sipplab history$' err
 equal "$(ask 'SELECT count(*), shard, status, missing, attempts, machines FROM v_sweeps')" "1||finished|0|2|1" "the sweep of two parts"
 ask "$outcomes" >merged
 cmp -s whole merged || complain "two parts are not what one process makes"
@@ -110,6 +112,31 @@ equal "$(ask 'SELECT command_line FROM run' collected.db)" "sipplab bench --suit
 bench --db one.db
 cmp -s <(ask "$outcomes" collected.db) <(ask "$outcomes" one.db) || complain "five tasks are not what one process makes"
 expect 0 doctor --db collected.db
+# A task's disk that fills up, has room again, and cannot be written any more, where one can be mounted.
+if unshare --mount --map-root-user true 2>/dev/null; then
+  expect 0 bench --suite density --robots 8 --count 2000 --max-restarts 0 --ssi 0 --reschedule none --plan-tasks small --tasks 2
+  mkdir disk
+  runs 0 unshare --mount --map-root-user bash -c '
+    mount -t tmpfs -o size=450k none disk && cp small/sweep.json disk
+    "$1" task run disk 1 >/dev/null 2>full; echo "$? $(cat disk/1.exit) $(wc -l <full)"
+    sqlite3 disk/1.db "PRAGMA integrity_check"
+    "$1" task missing disk 2>&1
+    mount -o remount,size=10m disk && "$1" task run disk 1 >/dev/null 2>&1; echo "$? $(cat disk/1.exit)"
+    sqlite3 disk/1.db "SELECT count(*) FROM result"
+    mount -o remount,ro disk; "$1" task run disk 2 >/dev/null 2>readonly; echo "$? $(wc -l <readonly)"
+    "$1" task collect disk --db small.db 2>&1 || true' _ "$sipplab"
+  equal "$(grep -v '^run ' out)" "2 2 1
+ok
+2
+task 1 failed by itself: exit code 2
+0 0
+2000
+2 1
+2000 plannings are missing; of tasks 2" "a disk that fills up"
+  says '2000 of 4000 plannings, 2000 new, from 1 of 2 tasks'
+  says 'disk/1.db: no space left while .*; what was committed before is kept' full
+  says 'disk/2.db: .*expected' readonly
+fi
 # One that fails by itself is named, and not run again.
 echo 70 >tasks/3.exit
 expect 0 task missing tasks

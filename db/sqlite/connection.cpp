@@ -53,12 +53,24 @@ Result<Connection> Connection::open(const std::filesystem::path& path, OpenMode 
 }
 
 Result<Connection> Connection::open_in_memory() {
-  return open(":memory:", "a database in memory", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  return open(":memory:", "a database in memory",
+              SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_URI);
 }
 
 Result<Done> Connection::execute(const std::string& sql, std::string_view doing) {
   const int code = retry_while_busy(
       *handle_, [&] { return sqlite3_exec(handle_->db, sql.c_str(), nullptr, nullptr, nullptr); });
+  if (code != SQLITE_OK) return Unexpected{describe(*handle_, code, doing)};
+  return Done{};
+}
+
+Result<Done> Connection::attach_copy(const Connection& other, const char* schema, std::string_view doing) {
+  SIPPLAB_TRY(execute(fmt::format("ATTACH ':memory:' AS {}", schema), doing));
+  sqlite3_int64 size = 0;
+  unsigned char* bytes = sqlite3_serialize(other.raw(), "main", &size, 0);
+  const int code = bytes == nullptr ? SQLITE_NOMEM
+                                    : sqlite3_deserialize(handle_->db, schema, bytes, size, size,
+                                                          SQLITE_DESERIALIZE_FREEONCLOSE);
   if (code != SQLITE_OK) return Unexpected{describe(*handle_, code, doing)};
   return Done{};
 }

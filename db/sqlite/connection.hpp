@@ -48,6 +48,9 @@ class Connection {
   /// sound, that a first statement outside a transaction stands alone.
   Result<Done> execute(const std::string& sql, std::string_view doing);
 
+  /// Attaches a copy in memory of what `other` holds, to be read.
+  Result<Done> attach_copy(const Connection& other, const char* schema, std::string_view doing);
+
   /// First column of the first row of a query; an error if there is no row.
   Result<std::int64_t> query_int(const std::string& sql, std::string_view doing);
   Result<std::string> query_text(const std::string& sql, std::string_view doing);

@@ -1,7 +1,10 @@
 // Merging: everything arrives, once, and says where it came from.
 #include "db/merge.hpp"
 
+#include <fstream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "db/doctor.hpp"
 #include "db/measurements.hpp"
@@ -233,6 +236,113 @@ TEST_F(Merging, a_full_disk_leaves_the_history_as_it_was) {
   must(database.connection().execute("PRAGMA max_page_count = 1000000", "making room"));
   EXPECT_EQ(must(merge_into(database, first)).rows_of("run"), 39);
   test::expect_sound(file);
+}
+
+/// Of a file that is too large to be gathered, or of which a few fill what is gathered.
+void pad(const std::filesystem::path& path, int megabytes) {
+  ask(path,
+      "UPDATE run SET command_line = hex(zeroblob(" + std::to_string(megabytes) + " << 19)) RETURNING 1");
+}
+
+TEST_F(Merging, many_files_are_what_one_after_the_other_is) {
+  std::vector<std::filesystem::path> parts;
+  for (int part = 0; part < 12; ++part) {
+    parts.push_back(folder / ("part" + std::to_string(part) + ".db"));
+    // Each planning is in two parts, and the first one stays.
+    record_part(parts.back(), std::to_string(part + 1) + "/12", part % 3 == 0 ? "slow" : "host",
+                {part % 6, (part + 5) % 6});
+    if (part == 7) pad(parts.back(), 9);
+  }
+  // More than is gathered at a time.
+  for (int number = 1; number <= 10; ++number) {
+    parts.push_back(folder / ("version" + std::to_string(number) + ".db"));
+    record_version(parts.back(), {number, 1, 8});
+    pad(parts.back(), 7);
+  }
+  for (const auto& part : parts) merge(part);
+  const std::filesystem::path other = folder / "other.db";
+  {
+    auto database = must(Database::open(other));
+    const MergeReport report = must(merge_into(database, parts));
+    EXPECT_TRUE(report.refused.empty());
+    EXPECT_EQ(report.rows_of("run"), 11);
+    EXPECT_EQ(report.rows_of("result"), 12 + 100);
+    EXPECT_TRUE(must(merge_into(database, parts)).added.empty());
+  }
+  EXPECT_EQ(contents(other), contents(file));
+  const char* attempts =
+      "SELECT group_concat(shard || ' ' || host || ' ' || position) FROM (SELECT attempt.shard, host, "
+      "position "
+      "FROM result JOIN attempt ON attempt.id = attempt_id JOIN machine ON machine.id = attempt.machine_id "
+      "ORDER BY 1, 2, 3)";
+  EXPECT_EQ(ask(other, attempts), ask(file, attempts));
+  EXPECT_EQ(ask(other, "SELECT group_concat(origin) FROM (SELECT origin FROM run ORDER BY uuid)"),
+            ask(file, "SELECT group_concat(origin) FROM (SELECT origin FROM run ORDER BY uuid)"));
+  test::expect_sound(other);
+  EXPECT_TRUE(examine(*std::make_unique<Database>(must(Database::open(other))), {}).sound());
+}
+
+TEST_F(Merging, a_file_that_cannot_be_merged_is_named_and_the_others_are) {
+  const auto named = [this](const char* name) { return folder / name; };
+  record_part(first, "1/2", "host", {0, 1, 2});
+  record_part(second, "2/2", "host", {3, 4, 5});
+  std::ofstream(named("text.db")) << "a letter";
+  for (const char* name : {"cut.db", "orphan.db", "orphan-large.db"}) {
+    record_version(named(name), {1, 1, 8});
+  }
+  std::filesystem::resize_file(named("cut.db"), std::filesystem::file_size(named("cut.db")) / 2);
+  pad(named("orphan-large.db"), 9);
+  for (const char* name : {"orphan.db", "orphan-large.db"}) {
+    auto connection = must(sqlite::Connection::open(named(name), sqlite::OpenMode::kReadWrite));
+    must(connection.execute("PRAGMA foreign_keys = OFF", "damaging"));
+    must(connection.execute("DELETE FROM instance WHERE id = 3", "damaging"));
+  }
+  const std::vector<std::filesystem::path> sources{first,
+                                                   named("text.db"),
+                                                   named("cut.db"),
+                                                   named("none.db"),
+                                                   named("orphan.db"),
+                                                   named("orphan-large.db"),
+                                                   file,
+                                                   second};
+  auto database = must(Database::open(file));
+  const MergeReport report = must(merge_into(database, sources));
+  ASSERT_EQ(report.refused.size(), 6U);
+  for (std::size_t i = 0; i < report.refused.size(); ++i) {
+    const std::string& line = report.refused[i].message;
+    EXPECT_EQ(line.rfind(sources[i + 1].string() + ": ", 0), 0U) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(report.rows_of("run"), 1);
+  EXPECT_EQ(ask(file, "SELECT status || results || missing FROM v_sweeps"), "finished120");
+  test::expect_sound(file);
+  EXPECT_TRUE(examine(database, {}).sound());
+}
+
+TEST_F(Merging, a_full_disk_keeps_what_was_written_before) {
+  std::vector<std::filesystem::path> sources;
+  for (int number = 1; number <= 20; ++number) {
+    sources.push_back(folder / ("version" + std::to_string(number) + ".db"));
+    record_version(sources.back(), {number, 1, 8});
+    pad(sources.back(), 7);
+  }
+  auto database = must(Database::open(file));
+  const auto limit_pages = [&database](int megabytes) {
+    must(database.connection().execute("PRAGMA max_page_count = " + std::to_string(megabytes * 256),
+                                       "limiting"));
+  };
+  limit_pages(100);
+  const auto full = merge_into(database, sources);
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().kind, ErrorKind::kFull) << full.error().message;
+  const std::string kept = ask(file, "SELECT count(*) FROM run");
+  EXPECT_GT(std::stoi(kept), 0);
+  EXPECT_LT(std::stoi(kept), 20);
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM result"), kept + "0");
+  test::expect_sound(file);
+  limit_pages(1000);
+  EXPECT_EQ(must(merge_into(database, sources)).rows_of("run"), 20 - std::stoi(kept));
+  EXPECT_TRUE(examine(database, {}).sound());
 }
 
 TEST_F(Merging, what_is_no_history_is_refused_and_nothing_changes) {

@@ -198,6 +198,14 @@ void order_and_repetition_change_nothing() {
       files[static_cast<std::size_t>(any_whole(0, static_cast<std::int64_t>(files.size()) - 1))]->path()));
   RC_ASSERT(again.added.empty());
   if (before != Content(other).all()) RC_FAIL("merging again changed something");
+  // All at once.
+  std::vector<std::filesystem::path> sources;
+  for (const std::size_t i : any_order(files.size())) sources.push_back(files[i]->path());
+  const NewHistory fourth;
+  Database together = fourth.open();
+  RC_ASSERT(must(merge_into(together, sources)).refused.empty());
+  expect_sound(together);
+  expect_same(one, together);
   // By way of a third file.
   const NewHistory third;
   Database last = third.open();

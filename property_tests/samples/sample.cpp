@@ -15,7 +15,7 @@ bool one_robot_at_most(const PlanCase& plan_case) {
   return result.status != PlanStatus::kSolved || plan_case.instance.agents.size() < 2;
 }
 
-const PropertyRoom room("sample", [] {
+const PropertyRoom room("sample", 1000, [] {
   bool passed = true;
 
   passed &= property("every number is odd or even", [] {
