@@ -50,7 +50,7 @@ ExpandedSweep any_sweep() {
   ExpandedSweep sweep;
   for (auto left = any_whole(1, 3); left > 0; --left) {
     sweep.sets.emplace_back();
-    sweep.sets.back().instances.resize(static_cast<std::size_t>(any_whole(0, *any_of({5, 5, 50}))));
+    sweep.sets.back().instances.resize(static_cast<std::size_t>(any_whole(0, any_flag() ? 5 : 50)));
   }
   for (auto left = any_whole(0, 5); left > 0; --left) {
     NamedCase named;
