@@ -42,8 +42,8 @@ struct Piece {
 };
 
 /// Instances with all their plannings are pieces if a shard gets so many of them at least, by seconds: then
-/// loads differ by an eighth of the average at most.
-constexpr double kInstancesPerShard = 8;
+/// loads differ by a quarter of the average at most.
+constexpr double kInstancesPerShard = 4;
 
 /// In the order of their first plannings.
 std::vector<Piece> pieces_of(const ExpandedSweep& sweep, const std::vector<Dealt>& all,

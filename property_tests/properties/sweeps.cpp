@@ -86,7 +86,7 @@ Plannings all_of(const ExpandedSweep& sweep, std::int64_t repetitions) {
   return plannings;
 }
 
-/// Whether each instance takes an eighth of a shard's share at most, all its plannings together.
+/// Whether each instance takes a quarter of a shard's share at most, all its plannings together.
 bool instances_are_small(const ExpandedSweep& sweep, std::int64_t repetitions,
                          const std::vector<double>& seconds, std::size_t shards) {
   double total = 0;
@@ -100,7 +100,7 @@ bool instances_are_small(const ExpandedSweep& sweep, std::int64_t repetitions,
     total += one * instances;
     if (instances > 0) largest = std::max(largest, one);
   }
-  return total > 0 && largest * 8 * static_cast<double>(shards) <= total;
+  return total > 0 && largest * 4 * static_cast<double>(shards) <= total;
 }
 
 void everything_is_dealt_out_once() {
@@ -165,7 +165,7 @@ void everything_is_dealt_out_once() {
   // The longest first, each to whom has the least: the last that the busiest got made it the busiest.
   if (!by_instance) RC_ASSERT(most - least <= last_of_most + 1e-9);
   if (!by_instance && kind < 2) RC_ASSERT(largest - smallest <= 1);
-  if (by_instance) RC_ASSERT(most - least <= total / static_cast<double>(count) / 8 + 1e-9);
+  if (by_instance) RC_ASSERT(most - least <= total / static_cast<double>(count) / 4 + 1e-9);
   RC_CLASSIFY(by_instance && count > 1, "by instance");
   RC_CLASSIFY(all.size() % count != 0, "does not divide");
 }
