@@ -208,6 +208,8 @@ Result<Table> run_sql(const std::filesystem::path& path, const std::string& sql,
   if (const int code = statistics::register_functions(db); code != SQLITE_OK) {
     return Unexpected{sqlite::describe(connection.handle(), code, "adding the statistics functions")};
   }
+  // Read now: a query with a mistake that is the first to need the schema ends with SQLITE_SCHEMA.
+  SIPPLAB_TRY(connection.query_int("SELECT count(*) FROM sqlite_schema", "reading the schema"));
   std::string refused;
   sqlite3_set_authorizer(db, allow_reading, &refused);
 
