@@ -22,6 +22,7 @@
 #include "property_tests/support/encounters.hpp"
 #include "property_tests/support/generators.hpp"
 #include "property_tests/support/property.hpp"
+#include "sipplab/generator.hpp"
 
 namespace sipplab::ejection_laws {
 namespace {
@@ -204,6 +205,49 @@ bool keeps_guarantee(const Scene& scene, double ssi_s, const PriorityOrder& orde
   });
 }
 
+/// Enters, looks for and takes out robots at random: afterwards a plan is what one is that only got those who
+/// are in it.
+void leaves_nothing_behind(const PlanCase& plan_case) {
+  const Instance& instance = plan_case.instance;
+  RC_PRE(instance.agents.size() >= 2u);
+  note_case(plan_case);
+  const auto search = single_agent_planner(instance, plan_case.options);
+  SearchLimits limits;
+  limits.max_expansions = 2'000;
+  SearchStatistics work;
+  PartialPlan used(instance, plan_case.options.ssi_s, *search);
+  std::vector<AgentIndex> planned;
+  Random random(at_full_size([] { return *rc::gen::arbitrary<std::uint64_t>(); }));
+  const std::size_t steps = 4 * instance.agents.size();
+  for (std::size_t i = 0; i < steps; ++i) {
+    const auto agent = static_cast<AgentIndex>(random.below(instance.agents.size()));
+    if (used.is_planned(agent)) {
+      PartialPlan::Taken taken = used.take_out(agent);
+      if (random.one_in(2)) {
+        used.put_back(std::move(taken));
+      } else {
+        planned.erase(std::find(planned.begin(), planned.end(), agent));
+      }
+    } else if (auto found = used.find(agent, limits, work); found && !random.one_in(3)) {
+      used.insert(agent, std::move(*found));
+      planned.push_back(agent);
+    }
+  }
+  PartialPlan fresh(instance, plan_case.options.ssi_s, *search);
+  for (const AgentIndex agent : planned) fresh.insert(agent, used.trajectory(agent));
+  RC_ASSERT(used.planned() == fresh.planned());
+  if (planned.size() == instance.agents.size()) RC_ASSERT(used.order() == fresh.order());
+  for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
+    if (used.is_planned(agent)) continue;
+    const auto one = used.find(agent, limits, work);
+    const auto other = fresh.find(agent, limits, work);
+    RC_ASSERT(one.has_value() == other.has_value());
+    if (one) RC_ASSERT(*one == *other);
+  }
+  RC_CLASSIFY(planned.size() >= 2, "two planned or more");
+  RC_CLASSIFY(planned.size() < instance.agents.size(), "some not planned");
+}
+
 const PropertyRoom room("ejection", [] {
   bool passed = true;
 
@@ -271,46 +315,17 @@ const PropertyRoom room("ejection", [] {
     RC_CLASSIFY(failures > 1, "several failures");
   });
 
-  passed &= property("PartialPlan: what was only looked for, or taken out, leaves nothing behind", [] {
-    const PlanCase plan_case = any_ejecting_case();
-    const Instance& instance = plan_case.instance;
-    RC_PRE(instance.agents.size() >= 2u);
-    note_case(plan_case);
-    const auto search = single_agent_planner(instance, plan_case.options);
-    SearchLimits limits;
-    limits.max_expansions = 2'000;
-    SearchStatistics work;
-    PartialPlan used(instance, plan_case.options.ssi_s, *search);
-    std::vector<AgentIndex> planned;
-    Random random(at_full_size([] { return *rc::gen::arbitrary<std::uint64_t>(); }));
-    const std::size_t steps = 4 * instance.agents.size();
-    for (std::size_t i = 0; i < steps; ++i) {
-      const auto agent = static_cast<AgentIndex>(random.below(instance.agents.size()));
-      if (used.is_planned(agent)) {
-        PartialPlan::Taken taken = used.take_out(agent);
-        if (random.one_in(2)) {
-          used.put_back(std::move(taken));
-        } else {
-          planned.erase(std::find(planned.begin(), planned.end(), agent));
-        }
-      } else if (auto found = used.find(agent, limits, work); found && !random.one_in(3)) {
-        used.insert(agent, std::move(*found));
-        planned.push_back(agent);
-      }
-    }
-    PartialPlan fresh(instance, plan_case.options.ssi_s, *search);
-    for (const AgentIndex agent : planned) fresh.insert(agent, used.trajectory(agent));
-    RC_ASSERT(used.planned() == fresh.planned());
-    if (planned.size() == instance.agents.size()) RC_ASSERT(used.order() == fresh.order());
-    for (AgentIndex agent = 0; agent < instance.agents.size(); ++agent) {
-      if (used.is_planned(agent)) continue;
-      const auto one = used.find(agent, limits, work);
-      const auto other = fresh.find(agent, limits, work);
-      RC_ASSERT(one.has_value() == other.has_value());
-      if (one) RC_ASSERT(*one == *other);
-    }
-    RC_CLASSIFY(planned.size() >= 2, "two planned or more");
-    RC_CLASSIFY(planned.size() < instance.agents.size(), "some not planned");
+  passed &= property("PartialPlan: what was only looked for, or taken out, leaves nothing behind",
+                     [] { leaves_nothing_behind(any_ejecting_case()); });
+
+  passed &= property("the same in a crowd in which each crosses starts of others", [] {
+    PlanCase plan_case = any_ejecting_case();
+    plan_case.options.ssi_s = kInfiniteSsi;
+    GeneratorOptions generator;
+    generator.agents = static_cast<std::size_t>(*rc::gen::inRange(4, 8));
+    generator.seed = at_full_size([] { return *rc::gen::arbitrary<std::uint64_t>(); });
+    plan_case.instance = *generate_instance(GridMap(4, 3), generator);
+    leaves_nothing_behind(plan_case);
   });
 
   passed &= property("are_in_conflict: exactly where bodies overlap deeper than touching", [] {

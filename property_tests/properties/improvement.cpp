@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "planner/grid/neighbourhood.hpp"
@@ -60,14 +61,50 @@ PlanCost cost_of(const Solution& solution) { return {flowtime_s(solution), makes
 /// Attempts until one makes the plan better; some cases are too easy for that.
 constexpr std::uint64_t kMostAttempts = 50;
 
-Attempt first_better(const Round& round, PartialPlan& plan) {
-  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  for (std::uint64_t i = 0; i < kMostAttempts; ++i) {
-    Attempt attempt = try_neighbourhood(round, plan, Random(seed + i));
-    if (attempt.is_better) return attempt;
+/// A plan, and what attempts on it have in common.
+struct Attempts {
+  explicit Attempts(Planned given_plan)
+      : planned(std::move(given_plan)),
+        planner(single_agent_planner(planned.plan_case.instance, planned.plan_case.options)),
+        plan(planned.plan_case.instance, 0, *planner),
+        objective(*rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20})),
+        times_s(planned.plan_case.instance.agents.size()),
+        round{planned.plan_case.instance, objective, roulette, times_s, given().trajectories, {}, {}} {
+    RC_PRE(!planned.plan_case.instance.agents.empty());
+    for (const AgentIndex agent : planned.result.order()) plan.insert(agent, given().trajectories[agent]);
+    round.cost = sipplab::cost_of(planned.plan_case.instance, plan);
   }
-  return {};
-}
+
+  const Solution& given() const { return planned.result.solution; }
+
+  /// Those of some that make the plan better.
+  std::vector<Attempt> better() {
+    std::vector<Attempt> found;
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    for (std::uint64_t i = 0; i < kMostAttempts; ++i) {
+      Attempt attempt = try_neighbourhood(round, plan, Random(seed + i));
+      if (attempt.is_better) found.push_back(std::move(attempt));
+    }
+    return found;
+  }
+
+  Attempt first_better() {
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    for (std::uint64_t i = 0; i < kMostAttempts; ++i) {
+      Attempt attempt = try_neighbourhood(round, plan, Random(seed + i));
+      if (attempt.is_better) return attempt;
+    }
+    return {};
+  }
+
+  Planned planned;
+  std::unique_ptr<SingleAgentPlanner> planner;
+  PartialPlan plan;
+  Objective objective;
+  RuleRoulette roulette;
+  std::vector<double> times_s;
+  Round round;
+};
 
 /// Straight sections between all cells at which a disk may be, shortest paths by Floyd and Warshall.
 class AllPaths {
@@ -119,28 +156,60 @@ const PropertyRoom room("improvement", [] {
   });
 
   passed &= property("an attempt is taken over where it gains something, and a second time it does not", [] {
-    const Planned planned = any_planned();
-    const Instance& instance = planned.plan_case.instance;
-    RC_PRE(!instance.agents.empty());
-    const std::unique_ptr<SingleAgentPlanner> planner =
-        single_agent_planner(instance, planned.plan_case.options);
-    PartialPlan plan(instance, 0, *planner);
-    const Solution& given = planned.result.solution;
-    for (const AgentIndex agent : planned.result.order()) plan.insert(agent, given.trajectories[agent]);
-    const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20});
-    const RuleRoulette roulette;
-    const std::vector<double> times_s(instance.agents.size());
-    const Round round{instance, objective, roulette, times_s, given.trajectories, cost_of(instance, plan),
-                      {}};
-    const Attempt attempt = first_better(round, plan);
-    RC_ASSERT(plan.solution() == given);
+    Attempts attempts(any_planned());
+    const Attempt attempt = attempts.first_better();
+    RC_ASSERT(attempts.plan.solution() == attempts.given());
     RC_PRE(attempt.is_better);
-    PlanCost cost = round.cost;
-    RC_ASSERT(take_over(round, attempt, {}, plan, cost));
-    RC_ASSERT(is_better(objective, cost, round.cost));
-    const Solution better = plan.solution();
-    RC_ASSERT(!take_over(round, attempt, {}, plan, cost));
-    RC_ASSERT(plan.solution() == better);
+    PlanCost cost = attempts.round.cost;
+    RC_ASSERT(take_over(attempts.round, attempt, {}, attempts.plan, cost));
+    RC_ASSERT(is_better(attempts.objective, cost, attempts.round.cost));
+    const Solution better = attempts.plan.solution();
+    RC_ASSERT(!take_over(attempts.round, attempt, {}, attempts.plan, cost));
+    RC_ASSERT(attempts.plan.solution() == better);
+  });
+
+  passed &= property(
+      "attempts on one plan are taken over after each other where they fit",
+      [] {
+        Attempts attempts(any_planned());
+        PlanCost cost = attempts.round.cost;
+        std::vector<AgentIndex> changed;
+        std::size_t taken = 0;
+        std::size_t refused = 0;
+        for (const Attempt& attempt : attempts.better()) {
+          if (std::find_first_of(changed.begin(), changed.end(), attempt.robots.begin(),
+                                 attempt.robots.end()) != changed.end()) {
+            continue;
+          }
+          if (!take_over(attempts.round, attempt, changed, attempts.plan, cost)) {
+            ++refused;
+            continue;
+          }
+          changed.insert(changed.end(), attempt.robots.begin(), attempt.robots.end());
+          ++taken;
+        }
+        const Solution solution = attempts.plan.solution();
+        RC_ASSERT(std::abs(flowtime_s(solution) - cost.flowtime_s) < 1e-6);
+        assert_valid(attempts.planned.plan_case.instance, solution, {0, attempts.planned.result.order()});
+        RC_CLASSIFY(taken > 1, "several");
+        RC_CLASSIFY(refused > 0, "one was refused");
+      },
+      kCasesOfWorlds / 2);
+
+  passed &= property("an attempt that a limit ends says so, and leaves the plan as it was", [] {
+    Attempts attempts(any_planned());
+    const std::atomic<bool> stop{true};
+    Round over = attempts.round;
+    over.limits.stop = &stop;
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    const Attempt free = try_neighbourhood(attempts.round, attempts.plan, Random(seed));
+    const Attempt ended = try_neighbourhood(over, attempts.plan, Random(seed));
+    RC_ASSERT(ended.robots == free.robots);
+    RC_ASSERT(!free.was_cut_short);
+    if (ended.found.size() < free.found.size()) RC_ASSERT(ended.was_cut_short);
+    if (ended.was_cut_short) RC_ASSERT(!ended.is_better);
+    RC_CLASSIFY(ended.was_cut_short, "cut short");
+    RC_ASSERT(attempts.plan.solution() == attempts.given());
   });
 
   passed &= property("by steps, no attempt that would be better is given up for its bounds", [] {
