@@ -493,7 +493,7 @@ class MergeOfFiles {
   void count(const MergeReport& more) {
     for (const auto& [table, rows] : more.added) {
       const auto found = std::find_if(report_.added.begin(), report_.added.end(),
-                                      [&table = table](const auto& one) { return one.first == table; });
+                                      [&name = table](const auto& one) { return one.first == name; });
       if (found == report_.added.end()) {
         report_.added.emplace_back(table, rows);
       } else {

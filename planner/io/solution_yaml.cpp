@@ -107,16 +107,17 @@ class ScheduleEvents : public YAML::EventHandler {
   void add_waypoint() {
     constexpr std::string_view kAgent = "agent";
     const std::string& name = levels_[1].key;
-    const auto robot = name.substr(0, kAgent.size()) == kAgent
-                           ? parse_integer(std::string_view(name).substr(kAgent.size()))
-                           : std::nullopt;
-    if (!robot || *robot < 0) complain(mark_, in_quotes(name) + ", expected agent0 and so on");
+    std::int64_t robot = -1;
+    if (name.substr(0, kAgent.size()) == kAgent) {
+      robot = parse_integer(std::string_view(name).substr(kAgent.size())).value_or(-1);
+    }
+    if (robot < 0) complain(mark_, in_quotes(name) + ", expected agent0 and so on");
     constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (!x_ || !y_ || !t_ || std::abs(*x_) > kMost || std::abs(*y_) > kMost) {
       complain(mark_, "a place of " + in_quotes(name) + " without x, y and t");
     }
     const Cell cell{static_cast<std::int32_t>(*x_), static_cast<std::int32_t>(*y_)};
-    const std::string problem = plan_.add(static_cast<std::size_t>(*robot), cell, *t_);
+    const std::string problem = plan_.add(static_cast<std::size_t>(robot), cell, *t_);
     if (!problem.empty()) complain(mark_, problem);
   }
 
