@@ -491,7 +491,6 @@ nlohmann::json line_of(const db::PropertyRun& run) {
 void logs_of_properties_are_read_as_written() {
   std::string log;
   std::vector<db::PropertyRun> expected;
-  std::size_t lines = 0;
   for (auto left = any_whole(1, 4); left > 0; --left) {
     db::PropertyRun run = db::any_property_run();
     if (run.status == "crashed") run.status = "passed", run.message.clear();
@@ -499,14 +498,8 @@ void logs_of_properties_are_read_as_written() {
     begun.status = "started";
     begun.reproduce.clear();
     const bool ended = any_flag();
-    if (any_flag() || !ended) {
-      log += line_of(begun).dump() + "\n";
-      ++lines;
-    }
-    if (ended) {
-      log += line_of(run).dump() + "\n" + (any_flag() ? "\n" : "");
-      ++lines;
-    }
+    if (any_flag() || !ended) log += line_of(begun).dump() + "\n";
+    if (ended) log += line_of(run).dump() + "\n" + (any_flag() ? "\n" : "");
     expected.push_back(ended ? run : begun);
     if (!ended) expected.back().status = "crashed";
   }
