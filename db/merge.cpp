@@ -436,6 +436,8 @@ class MergeOfFiles {
     if (!is_large && !gathered_) SIPPLAB_TRY(begin_gathering());
     auto report = merge_file(source, is_large);
     if (!report) {
+      // A large one is written to the disk of the history at once.
+      if (is_large && report.error().kind == ErrorKind::kFull) return Unexpected{report.error()};
       refuse(report.error());
     } else if (is_large) {
       count(*report);
@@ -454,12 +456,21 @@ class MergeOfFiles {
     return Done{};
   }
 
-  MergeReport& report() { return report_; }
+  /// What was done, tables in the order of the schema.
+  MergeReport& report() {
+    const auto place = [this](const auto& table) {
+      return std::find_if(tables_.begin(), tables_.end(),
+                          [&table](const TableShape& shape) { return shape.name == table.first; });
+    };
+    std::sort(report_.added.begin(), report_.added.end(),
+              [&place](const auto& a, const auto& b) { return place(a) < place(b); });
+    return report_;
+  }
 
  private:
-  /// Larger ones are merged as they are: it is not worth the memory.
+  /// Larger ones are merged as they are: gathering them is not worth the memory.
   static constexpr std::uintmax_t kLargeFileBytes = 8 << 20;
-  /// Of some 800,000 results, some seconds of merging.
+  /// About 800,000 results: some seconds of merging.
   static constexpr std::int64_t kGatheredBytes = 64 << 20;
 
   Result<Done> begin_gathering() {

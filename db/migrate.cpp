@@ -8,6 +8,7 @@
 
 #include "db/sqlite/statement.hpp"
 #include "db/sqlite/transaction.hpp"
+#include "sipplab/error.hpp"
 
 namespace sipplab::db {
 namespace {
@@ -62,6 +63,7 @@ std::vector<Migration> numbered(std::span<const EmbeddedText> files) {
   for (const auto& [name, sql] : files) {
     Migration& step = steps.emplace_back(Migration{0, name, sql});
     std::from_chars(name.data(), name.data() + name.size(), step.version);  // "0009_initial"
+    PLANNER_ASSERT(steps.size() < 2 || step.version == steps[steps.size() - 2].version + 1);
   }
   return steps;
 }

@@ -15,7 +15,7 @@ namespace sipplab::db {
 struct PropertyRun {
   std::string uuid;  ///< a line that is recorded twice is stored once
   std::string started_utc;
-  std::string room;  ///< the program, without "property_"
+  std::string room;  ///< whose property it is: `properties ROOM`
   std::string title;
   std::uint64_t seed = 0;
   std::int64_t max_success = 0;  ///< cases that were asked for

@@ -1,4 +1,4 @@
-// Reads the log that property programs append to; its fields are explained where it is
+// Reads the log that properties append to; its fields are explained where it is
 // written, in property_tests/support/property_log.hpp.
 #pragma once
 

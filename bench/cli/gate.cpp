@@ -32,7 +32,7 @@ constexpr const char* kThisProgram = "/proc/self/exe";
 
 /// The instances of a comparison are the same always, so that its noise can be compared too.
 constexpr std::uint64_t kInstanceSeed = 1;
-/// Of each cell, where what is said is tested and not how well is measured.
+/// Instances of each cell, for tests of what the gate says and not of how well it measures.
 constexpr std::uint64_t kShortCellInstances = 2;
 
 struct GateArguments {

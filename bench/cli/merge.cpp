@@ -25,13 +25,14 @@ struct MergeArguments {
   bool json = false;
 };
 
-std::string summary(std::size_t files, const db::MergeReport& report) {
-  if (report.added.empty()) return fmt::format("{} files: nothing new\n", files);
+std::string summary(std::size_t merged, const db::MergeReport& report) {
+  const std::string files = merged == 1 ? "1 file" : fmt::format("{} files", merged);
+  if (report.added.empty()) return files + ": nothing new\n";
   std::int64_t others = 0;
   for (const auto& [table, rows] : report.added) {
     if (table != "run" && table != "cell" && table != "result") others += rows;
   }
-  return fmt::format("{} files: {} runs, {} cells, {} results and {} other rows new\n", files,
+  return fmt::format("{}: {} runs, {} cells, {} results and {} other rows new\n", files,
                      report.rows_of("run"), report.rows_of("cell"), report.rows_of("result"), others);
 }
 

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct PropertyArguments {
   HistoryFlags history;
-  std::string program;  ///< how sipplab was called: property programs lie below its folder
+  std::string program;  ///< how sipplab was called: the program of the properties lies below its folder
 
   // record, totals
   std::string log;
@@ -145,7 +145,7 @@ std::optional<std::string> write_pictures(const PropertyArguments& arguments, co
 }
 
 const char* text_of(bench::ProgramVerdict verdict) {
-  constexpr const char* kNames[] = {"holds now", "still fails", "not run: its program is missing"};
+  constexpr const char* kNames[] = {"holds now", "still fails", "not run: no such program, room or property"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -225,7 +225,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* replay =
       arguments->history.add_command(*property, "replay",
                                      "try a counterexample again; exit code 1 if it still fails, 0 if "
-                                     "it holds, 3 if its program is missing");
+                                     "it holds, 3 if it cannot be run");
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");

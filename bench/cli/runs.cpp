@@ -63,7 +63,7 @@ Command add_runs_command(CLI::App& program) {
   command->add_option("--kind", arguments->kind, "runs of this kind; default: sweeps and imported reports")
       ->check(CLI::IsMember({"sweep", "report", "property", "fuzz", "gate", "all"}));
   command->add_option("--suite", arguments->suite,
-                      "only runs of this suite, property program or fuzz target");
+                      "only runs of this suite, room of properties or fuzz target");
   command->add_option("--limit", arguments->limit, "number of newest runs to show")->capture_default_str();
   command->add_flag("--all", arguments->all, "show all runs, including excluded ones");
   CLI::Option* exclude =

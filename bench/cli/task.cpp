@@ -112,7 +112,7 @@ int run_task(const TaskArguments& arguments) {
   }
   const int code = run_again(std::move(command));
   const auto failed = write_file(bench::exit_file(folder, task).string(), std::to_string(code) + "\n");
-  // What failed has said why: mostly the same.
+  // If the program failed too, it has said why: mostly for the same reason.
   return failed && code == kSuccess ? fail(failed->message()) : code;
 }
 

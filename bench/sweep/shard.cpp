@@ -41,8 +41,8 @@ struct Piece {
   std::vector<std::size_t> plannings;
 };
 
-/// Instances with all their plannings are pieces if a shard gets so many of them at least, by seconds: then
-/// loads differ by a quarter of the average at most.
+/// Whole instances are pieces if none takes more than a quarter of a shard's average: then loads differ by at
+/// most that quarter.
 constexpr double kInstancesPerShard = 4;
 
 /// In the order of their first plannings.

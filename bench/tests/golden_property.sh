@@ -24,7 +24,8 @@ equal "$(wc -l <log)" 20 "lines of the log after two runs"
 runs 1 property_tests/properties sample
 equal "$(wc -l <log)" 20 "lines of the log after a run without one"
 runs 2 env RC_PARAMS=max_success=many property_tests/properties sample
-runs 2 property_tests/properties no_such_room
+runs 2 property_tests/properties
+runs 3 property_tests/properties no_such_room
 prints 'expected one of any_angle_search' err
 
 runs 1 ./sipplab property totals log
@@ -106,6 +107,9 @@ runs 0 ./sipplab property replay "$id" --db history.db
 prints 'property  holds now'
 # Renamed: a room without it does not mend it.
 printf '#!/bin/sh\nexec "%s" open_list\n' "$properties" >property_tests/properties
+runs 3 ./sipplab property replay "$number" --db history.db
+prints 'not run'
+printf '#!/bin/sh\nexec "%s" no_such_room\n' "$properties" >property_tests/properties
 runs 3 ./sipplab property replay "$number" --db history.db
 prints 'not run'
 # Its program is gone: nobody can say whether it holds, whatever becomes of the plan.

@@ -71,8 +71,11 @@ Result<Done> Connection::attach_copy(const Connection& other, const char* schema
   const int code = bytes == nullptr ? SQLITE_NOMEM
                                     : sqlite3_deserialize(handle_->db, schema, bytes, size, size,
                                                           SQLITE_DESERIALIZE_FREEONCLOSE);
-  if (code != SQLITE_OK) return Unexpected{describe(*handle_, code, doing)};
-  return Done{};
+  if (code == SQLITE_OK) return Done{};
+  const Error error{ErrorKind::kInternal,
+                    fmt::format("{}: {} while {}", name(), sqlite3_errstr(code), doing)};
+  SIPPLAB_TRY(execute(fmt::format("DETACH {}", schema), doing));
+  return Unexpected{error};
 }
 
 Result<std::int64_t> Connection::query_int(const std::string& sql, std::string_view doing) {

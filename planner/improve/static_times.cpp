@@ -25,8 +25,8 @@ struct Corner {
 std::vector<Corner> cells_of_ellipse(const GridMap& map, const LineOfSight& line_of_sight, Cell from, Cell to,
                                      double longest) {
   std::vector<Corner> corners = {{from, 0, distance(from, to)}};
-  /// Its first and last coordinate between 0 and `side` - 1; `across` is how far apart the ends are in the
-  /// other.
+  // First and last coordinate of the ellipse in one direction, within the map; `across`: distance of the ends
+  // in the other.
   const auto extent = [longest](double one, double other, double across, std::int32_t side) {
     const double middle = (one + other) / 2;
     const double half = std::sqrt(std::max(longest * longest - across * across, 0.0)) / 2;
@@ -194,7 +194,7 @@ LowerBound lower_bound(const Instance& instance, bool any_angle, int connectedne
     if (any_angle && !sight.is_clear(agent.start, agent.goal)) {
       cells = shortest_grid_cells(instance.map, sight, agent.start, agent.goal, connectedness);
     }
-    solo_cells.push_back(cells);  // kForever for a large body that has a path, maybe, and no steps
+    solo_cells.push_back(cells);  // kForever: no steps; a large body may still have a path
   }
   std::vector<double> times_s = static_times_s(instance, any_angle, connectedness, solo_cells, {}, most_work);
   return lower_bound(times_s);

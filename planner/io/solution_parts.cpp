@@ -1,3 +1,4 @@
+// What readers of several formats share; see solution_parts.hpp.
 #include "planner/io/solution_parts.hpp"
 
 #include "planner/io/text.hpp"

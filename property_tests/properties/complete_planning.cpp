@@ -151,8 +151,8 @@ struct Junction {
   }
 };
 
-/// A lane one cell wide with two robots in it that face each other. They can pass at its begin, where it has
-/// an arm to each side. At its end it has none, or two of which one is taken by a robot that has arrived.
+/// A lane one cell wide with two robots in it that face each other. They can pass at its beginning, where it
+/// has an arm to each side. At its end it has none, or two of which one is taken by a robot that has arrived.
 struct Lane {
   FreeGrid grid;
   Configuration starts;

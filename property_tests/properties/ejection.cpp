@@ -318,7 +318,7 @@ const PropertyRoom room("ejection", [] {
   passed &= property("PartialPlan: what was only looked for, or taken out, leaves nothing behind",
                      [] { leaves_nothing_behind(any_ejecting_case()); });
 
-  passed &= property("the same in a crowd in which each crosses starts of others", [] {
+  passed &= property("PartialPlan: nothing is left behind in a crowd that crosses starts", [] {
     PlanCase plan_case = any_ejecting_case();
     plan_case.options.ssi_s = kInfiniteSsi;
     GeneratorOptions generator;

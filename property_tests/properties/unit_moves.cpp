@@ -167,7 +167,7 @@ const PropertyRoom room("unit_moves", [] {
     RC_ASSERT(result.log.curve.back().cost.makespan_s == after.makespan_s);
   });
 
-  passed &= property("improve_unit_moves (1): nor worse than a plan in which small robots follow closer", [] {
+  passed &= property("improve_unit_moves (1): not worse than a plan in which small robots follow closer", [] {
     // All are taken for the largest.
     Planned planned;
     planned.plan_case = at_full_size([] { return make_crowd(*rc::gen::arbitrary<std::uint64_t>()); });

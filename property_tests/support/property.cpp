@@ -222,7 +222,7 @@ int run_room(std::span<const char* const> arguments) {
     std::cerr << "usage: properties ROOM, expected one of";
     for (const auto& [name, ignored] : rooms()) std::cerr << ' ' << name;
     std::cerr << '\n';
-    return 2;
+    return arguments.size() == 1 ? bench::kNoSuchProperty : 2;
   }
   current_room = room->first;
   return room->second.run() ? 0 : 1;

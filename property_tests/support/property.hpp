@@ -26,7 +26,8 @@ class PropertyRoom {
   PropertyRoom(const char* name, int cases, bool (*run)());
 };
 
-/// Runs the room that `arguments` name: 0 if all of it held, 1 if not, 2 if there is no such room.
+/// Runs the room that `arguments` name: 0 if all of it held, 1 if not, kNoSuchProperty
+/// (bench/campaigns/replay.hpp) if there is no such room, 2 for anything but one name.
 int run_room(std::span<const char* const> arguments);
 
 /// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
@@ -40,8 +41,8 @@ bool run_property(std::optional<int> cases, const std::string& title, const rc::
 /// appended to it; property_log.hpp says what is in it.
 ///
 /// With "reproduce=..." in RC_PARAMS, only the counterexamples that it holds are tried:
-/// nothing is drawn or logged, and properties that it does not name hold. A program that has
-/// none of those that are named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
+/// nothing is drawn or logged, and properties that it does not name hold. A room that has
+/// none of those named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
 ///
 /// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty.
 template <class Testable>
