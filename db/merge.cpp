@@ -225,7 +225,7 @@ class Merge {
           "d.instance_id = m_instance_id.new AND d.position = s.position AND d.repetition = s.repetition)",
           source.from, last_cell_)));
     }
-    if (table.name == "result" || table.name == "progress") {
+    if (is_of_a_planning(table)) {
       condition = fmt::format(
           "(m_cell_id.new > {} OR EXISTS (SELECT 1 FROM temp.fresh WHERE fresh.cell_id = m_cell_id.new AND "
           "fresh.instance_id = m_instance_id.new AND fresh.position = s.position AND "
@@ -246,6 +246,14 @@ class Merge {
     const std::int64_t added = connection_.changes();
     if (added > 0) report_.added.emplace_back(table.name, added);
     return table.has_key ? map_keys(table, source) : Result<Done>{Done{}};
+  }
+
+  /// Of a planning that two files hold, all that is said comes from one of them.
+  static bool is_of_a_planning(const TableShape& table) {
+    constexpr std::string_view kPlanning[] = {"cell_id", "instance_id", "position", "repetition"};
+    return std::all_of(std::begin(kPlanning), std::end(kPlanning), [&table](std::string_view column) {
+      return std::find(table.columns.begin(), table.columns.end(), column) != table.columns.end();
+    });
   }
 
   /// In which the pages of the destination lie.
@@ -495,8 +503,14 @@ class MergeOfFiles {
       return merge_attached(destination, tables_, source.string(), is_large);
     }();
     if (report || report.error().message.rfind(source.string(), 0) == 0) return report;
-    return Unexpected{Error{report.error().kind,
-                            fmt::format("{}: not merged: {}", source.string(), report.error().message)}};
+    // What is wrong is wrong with the source, unless the disk of the history is full.
+    Error error = report.error();
+    const std::string destination_name = destination.name() + ": ";
+    if (error.kind != ErrorKind::kFull && error.message.rfind(destination_name, 0) == 0) {
+      error.message.erase(0, destination_name.size());
+    }
+    error.message = fmt::format("{}: not merged: {}", source.string(), error.message);
+    return Unexpected{std::move(error)};
   }
 
   void refuse(Error error) { report_.refused.push_back(std::move(error)); }

@@ -312,6 +312,10 @@ TEST_F(Merging, a_file_that_cannot_be_merged_is_named_and_the_others_are) {
     const std::string& line = report.refused[i].message;
     EXPECT_EQ(line.rfind(sources[i + 1].string() + ": ", 0), 0U) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
+    EXPECT_EQ(line.find("in memory"), std::string::npos) << line;
+    if (sources[i + 1] != file) {
+      EXPECT_EQ(line.find(file.string() + ": "), std::string::npos) << line;
+    }
   }
   EXPECT_EQ(report.rows_of("run"), 1);
   EXPECT_EQ(ask(file, "SELECT status || results || missing FROM v_sweeps"), "finished120");
@@ -343,6 +347,24 @@ TEST_F(Merging, a_full_disk_keeps_what_was_written_before) {
   limit_pages(1000);
   EXPECT_EQ(must(merge_into(database, sources)).rows_of("run"), 20 - std::stoi(kept));
   EXPECT_TRUE(examine(database, {}).sound());
+}
+
+TEST_F(Merging, of_a_planning_that_two_files_hold_all_is_said_by_the_first) {
+  record_part(first, "1/2", "host", {0, 1, 2});
+  record_part(second, "2/2", "slow", {2, 3, 4});
+  ask(second,
+      "INSERT INTO reported SELECT cell_id, instance_id, position, repetition, 'iterations', 7 FROM result "
+      "RETURNING 1");
+  ask(second,
+      "INSERT INTO retiming SELECT cell_id, instance_id, position, repetition, 1, 1, 0, 5.0, 9.0, 100, NULL "
+      "FROM result RETURNING 1");
+  merge(first);
+  merge(second);
+  const std::string news = ask(file, "SELECT count(*) FROM result WHERE position IN (3, 4)");
+  EXPECT_NE(news, "0");
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM reported"), news);
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM retiming"), news);
+  EXPECT_EQ(ask(file, "SELECT count(*) FROM reported WHERE position = 2"), "0");
 }
 
 TEST_F(Merging, what_is_no_history_is_refused_and_nothing_changes) {
