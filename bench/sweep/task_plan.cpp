@@ -133,9 +133,11 @@ TaskStates states_of(const std::filesystem::path& folder, std::size_t tasks) {
   TaskStates states;
   for (std::size_t task = 1; task <= tasks; ++task) {
     const auto code = exit_code_of(folder, task);
-    if (code && *code == 0) {
+    const bool ended_well = code && *code == 0;
+    std::error_code ignored;
+    if (ended_well && std::filesystem::exists(task_database(folder, task), ignored)) {
       states.done.push_back(task);
-    } else if (!code || was_stopped(*code)) {
+    } else if (!code || ended_well || was_stopped(*code)) {
       states.missing.push_back(task);
     } else {
       states.failed.emplace_back(task, *code);

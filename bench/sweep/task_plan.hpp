@@ -58,7 +58,7 @@ inline std::filesystem::path exit_file(const std::filesystem::path& folder, std:
 
 struct TaskStates {
   std::vector<std::size_t> done;
-  std::vector<std::size_t> missing;                 ///< not begun, or ended by something else than itself
+  std::vector<std::size_t> missing;  ///< not begun, without results, or ended by something else
   std::vector<std::pair<std::size_t, int>> failed;  ///< with the code
 };
 /// Of tasks 1 to `tasks`, by what their programs said when they ended.

@@ -358,8 +358,11 @@ void tasks_are_what_their_programs_said() {
         kEnds[static_cast<std::size_t>(any_whole(0, static_cast<std::int64_t>(kEnds.size()) - 1))];
     if (code >= 0)
       RC_ASSERT(!write_file(exit_file(folder.path(), task).string(), std::to_string(code) + "\n"));
-    if (end == 'd') done.push_back(task);
-    if (end == 'm') missing.push_back(task);
+    // Whoever ended well and left no results is as if it had not run.
+    const bool has_results = any_flag();
+    if (has_results) RC_ASSERT(!write_file(task_database(folder.path(), task).string(), "results"));
+    if (end == 'd' && has_results) done.push_back(task);
+    if (end == 'm' || (end == 'd' && !has_results)) missing.push_back(task);
     if (end == 'f') failed.emplace_back(task, code);
   }
   const TaskStates states = states_of(folder.path(), tasks);
