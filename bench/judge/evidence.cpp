@@ -157,7 +157,7 @@ double detectable_by_ranks(const std::vector<double>& pairs, double level, doubl
                                              std::sqrt(kEfficiencyOfRanks));
 }
 
-double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level) {
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level, double floor) {
   const auto count = static_cast<double>(nets.size());
   const double z = db::statistics::normal_quantile(1 - level / 2);
   if (plannings == 0 || z * z >= count) return kInfinity;
@@ -171,7 +171,8 @@ double detectable_losses(const std::vector<double>& nets, std::size_t plannings,
   const double share_of_square = 1 - z * z / count;
   const double found =
       (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
-  const double least = std::max(found, std::ceil(1 - std::log2(level)));
+  const double least =
+      std::max({found, std::ceil(1 - std::log2(level)), floor * static_cast<double>(plannings)});
   // So many or more come in 95 of 100 comparisons.
   const double power = db::statistics::normal_quantile(kPower);
   const double root = (power + std::sqrt(power * power + 4 * (least + scatter))) / 2;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -99,10 +100,28 @@ std::string interval_text(double low, double high, bool signs) {
                : fmt::format(" (95 %: {:.1f} to {:.1f})", low, high);
 }
 
+/// "from 2.5 points on", "from 0.4 % on": what would have been found 19 times of 20.
+std::string seen_text(const Difference& row) {
+  if (!std::isfinite(row.detectable)) return "nothing with so few";
+  return row.metric == &kSuccess ? fmt::format("from {:.1f} points on", 100 * row.detectable)
+                                 : fmt::format("from {:.1f} % on", percent(row.detectable));
+}
+
 /// Why a row does not count for certain.
 std::string doubt(const Difference& row) {
   if (row.verdict != Verdict::kInconclusive) return "";
-  return row.metric->test == Test::kFreshPairs ? ", too noisy now to tell" : ", which may be chance";
+  if (row.metric->test == Test::kFreshPairs) return ", too noisy now to tell";
+  const bool certain = row.adjusted_p <= kRecordedLevel;
+  return fmt::format(", which may be {} (sees {})", certain ? "too small to matter" : "chance",
+                     seen_text(row));
+}
+
+/// What plannings were lost and gained, where that is no news: "success -0.2 points (95 %: ...)".
+std::string harmless_words(const Difference& success) {
+  const bool small = success.verdict == Verdict::kEquivalent;
+  return words(success) + (small                ? ", too small to matter"
+                           : success.effect > 0 ? fmt::format(", within chance (sees {})", seen_text(success))
+                                                : "");
 }
 
 /// What rows of one metric say together: the one over all cells, then the worst cell, the others counted.
@@ -185,8 +204,9 @@ void judge_behaviour(Judgement& judgement) {
   }
 }
 
-/// Adds what changed without being worse, and what stayed as it was.
-void complete(Judged& judged, bool expected, const Difference* time, const Difference* flowtime) {
+/// Adds what changed without being worse, and what stayed as it was. `row_of`: of a metric, over what is
+/// judged; none where only a cell is.
+void complete(Judged& judged, bool expected, const std::function<const Difference*(const Metric&)>& row_of) {
   const auto add = [&judged](const std::string& text) {
     judged.reason += (judged.reason.empty() ? "" : "; ") + text;
   };
@@ -201,7 +221,11 @@ void complete(Judged& judged, bool expected, const Difference* time, const Diffe
   } else {
     add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
   }
-  if (tells(time)) add(words(*time));
+  if (row_of == nullptr) return;
+  const Difference* success = row_of(kSuccess);
+  if (tells(success) && success->lost + success->gained > 0) add(harmless_words(*success));
+  if (const Difference* time = row_of(kProcessTime); tells(time)) add(words(*time));
+  const Difference* flowtime = row_of(kFlowtime);
   if (tells(flowtime) && judged.verdict > Verdict::kImproved) add(words(*flowtime));
 }
 
@@ -210,8 +234,9 @@ void complete(Judged& judged, bool expected, const Difference* time, const Diffe
 std::string words(const Difference& row) {
   const double effect = percent(row.effect);
   if (row.metric == &kSuccess) {
-    return fmt::format("success {:+.1f} points: {} of {} plannings lost, {} gained (p = {:.2g})",
-                       -100 * row.effect, row.lost, row.plannings, row.gained, row.adjusted_p);
+    return fmt::format("success {:+.1f} points{}: {} of {} plannings lost, {} gained, p = {:.2g}",
+                       -100 * row.effect, interval_text(-100 * row.at_most, -100 * row.at_least, true),
+                       row.lost, row.plannings, row.gained, row.adjusted_p);
   }
   if (row.metric != &kProcessTime) {
     return fmt::format("{} {:+.1f} %{}", row.metric->name, effect,
@@ -237,11 +262,7 @@ std::string sight_text(const Judgement& judgement) {
     if (metric->value == nullptr || !metric->judges_pooled || row == nullptr || row->pairs.empty()) continue;
     // Where nothing differs, nothing is known of how changes scatter.
     if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
-    const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
-                             : metric == &kSuccess
-                                 ? fmt::format("from {:.1f} points on", 100 * row->detectable)
-                                 : fmt::format("from {:.1f} % on", percent(row->detectable));
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, from);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, seen_text(*row));
   }
   return text;
 }
@@ -324,11 +345,12 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
   judge_recorded(cells, options.floors);
   const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
   judge_metrics(judgement, excused);
-  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes, nullptr, nullptr);
-  const Difference* time = judgement.find(kProcessTime, std::nullopt);
-  if (time != nullptr) judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
-  complete(judgement.all, options.expects_changes, excused ? nullptr : time,
-           judgement.find(kFlowtime, std::nullopt));
+  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes, nullptr);
+  if (judgement.find(kProcessTime, std::nullopt) != nullptr)
+    judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
+  complete(judgement.all, options.expects_changes, [&](const Metric& metric) {
+    return excused && &metric == &kProcessTime ? nullptr : judgement.find(metric, std::nullopt);
+  });
   if (excused) judgement.all.reason += "; " + options.times_excuse;
 }
 

@@ -25,7 +25,7 @@ TEST(Evidence, LossesThatAreSeenAreThoseThatTheTestFinds) {
   nets[0] = nets[1] = 1;
   nets[2] = nets[3] = -1;
   const double level = kRecordedLevel / 7;
-  const double share = detectable_losses(nets, 900, level);
+  const double share = detectable_losses(nets, 900, level, 0.01);
   EXPECT_NEAR(share, 0.0257, 0.0005);
   Random random(3);
   int found = 0;
@@ -40,7 +40,7 @@ TEST(Evidence, LossesThatAreSeenAreThoseThatTheTestFinds) {
   }
   EXPECT_GE(found, kTrials * 92 / 100);
   EXPECT_LE(found, kTrials * 98 / 100);
-  EXPECT_TRUE(std::isinf(detectable_losses({0, 0, 0, 0, 0}, 45, level)));
+  EXPECT_TRUE(std::isinf(detectable_losses({0, 0, 0, 0, 0}, 45, level, 0)));
 }
 
 }  // namespace
