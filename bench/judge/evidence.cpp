@@ -167,10 +167,12 @@ double detectable_losses(const std::vector<double>& nets, std::size_t plannings,
   for (const double net : nets) (net > 0 ? lost : gained) += net * net;
   const double scatter = 2 * std::min(lost, gained);
   // Of q losses the sum of nets is q, and that of their squares scatter + q + q^2 / count, for some instances
-  // lose twice: the test finds q >= z sqrt(that), and no fewer than signs that all agree need.
+  // lose twice: the test finds q >= 1 + z sqrt(that), the 1 since sums of signs come in steps of two, and no
+  // fewer than signs that all agree need.
   const double share_of_square = 1 - z * z / count;
-  const double found =
-      (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
+  const double linear = 2 + z * z;
+  const double found = (linear + std::sqrt(linear * linear - 4 * share_of_square * (1 - z * z * scatter))) /
+                       (2 * share_of_square);
   const double least =
       std::max({found, std::ceil(1 - std::log2(level)), floor * static_cast<double>(plannings)});
   // So many or more come in 95 of 100 comparisons.

@@ -192,7 +192,7 @@ void what_is_detectable_solves_its_equations() {
   const double least = losses - z95 * std::sqrt(losses + scatter);
   const double z = -db::statistics::normal_quantile(level / 2);
   const double by_signs = std::ceil(1 - std::log2(level));
-  const double as_far = z * std::sqrt(scatter + least + least * least / static_cast<double>(nets.size()));
+  const double as_far = 1 + z * std::sqrt(scatter + least + least * least / static_cast<double>(nets.size()));
   const double that_matter = floor * static_cast<double>(plannings);
   RC_ASSERT(std::abs(least - std::max({by_signs, as_far, that_matter})) < 1e-6);
 }
