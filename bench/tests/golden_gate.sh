@@ -132,6 +132,7 @@ refused "'speed=1', expected one like success=1,quality=0.2" compare a b --floor
 expect 1 gate --base . --head ./sipplab --sweeps "$(plans 0)" "$(plans 1)" --pairs 6 --pair-seconds 0.01 --fewest-rounds 1 \
   --timed-only --short-cells --expect-changes --db plans.db --junit both.xml
 says '^REGRESSED: flowtime'
+says "^and [0-9]+ more: .SELECT \* FROM v_gate_differences., .sipplab compare $(plans 0 | cut -c 1-8) $(plans 1 | cut -c 1-8) --list.$"
 says '<testcase classname="sipplab gate" name="warehouse, 16 robots, ssi 5, none"' both.xml
 says '<testcase classname="sipplab gate" name="empty:32x32, 32 robots"' both.xml
 
