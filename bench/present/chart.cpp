@@ -332,9 +332,10 @@ class Script {
           return point.interval.has_value();
         });
         if (intervals) {
-          add(fmt::format(
-              "{} using 1:2:3:4 with yerrorbars pointtype -1 linewidth 0.9 linecolor rgb '{}' notitle", data,
-              colour));
+          // Gnuplot's own bars of errors have a white dot below, which hides what other lines have there.
+          const std::string bars =
+              "using 1:3:(0):($4-$3) with vectors heads size graph 0.008,90 linewidth 0.9";
+          add(fmt::format("{} {} linecolor rgb '{}' notitle", data, bars, colour));
         }
         if (one.style == LineStyle::kLine)
           add(fmt::format("{} using 1:2 with lines {} notitle", data, stroke));

@@ -86,6 +86,7 @@ TEST(Charts, say_of_each_point_what_it_is_when_the_pointer_rests_on_it) {
       << picture;
   EXPECT_NE(picture.find("<title>0 at 1a2b3c, "), std::string::npos);
   EXPECT_EQ(count(picture, "onmouse"), 0U);
+  EXPECT_EQ(count(picture, "#FFFFFF"), 1U) << "behind a hollow point, and behind no interval";
 }
 
 TEST(Charts, are_drawn_as_a_file_within_a_page_and_as_pdf) {
