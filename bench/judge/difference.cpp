@@ -171,6 +171,11 @@ std::size_t Difference::better() const {
       std::count_if(pairs.begin(), pairs.end(), [](double pair) { return pair < 0; }));
 }
 
+bool is_news(const Difference& row) {
+  return row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
+         row.verdict == Verdict::kImproved;
+}
+
 void evaluate(Difference& row) {
   // Lost plannings are counted by instance, and are a share of all plannings.
   const double scale = row.metric->test == Test::kSigns && row.plannings > 0

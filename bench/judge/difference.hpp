@@ -120,6 +120,9 @@ struct Difference {
   std::size_t better() const;  ///< pairs below
 };
 
+/// Whether a reader is to look at it: regressed, inconclusive or improved.
+bool is_news(const Difference& row);
+
 /// From its pairs: effect, interval and p value, adjusted by nothing.
 void evaluate(Difference& row);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -175,8 +174,7 @@ void judge_metrics(Judgement& judgement, bool excused) {
       judgement.all.verdict = std::max(judgement.all.verdict, verdict);
     }
   }
-  for (const std::string& text : said)
-    judgement.all.reason += (judgement.all.reason.empty() ? "" : "; ") + text;
+  for (const std::string& text : said) judgement.all.add(text);
 }
 
 std::string changes_text(const Judged& judged) {
@@ -204,29 +202,33 @@ void judge_behaviour(Judgement& judgement) {
   }
 }
 
-/// Adds what changed without being worse, and what stayed as it was. `row_of`: of a metric, over what is
-/// judged; none where only a cell is.
-void complete(Judged& judged, bool expected, const std::function<const Difference*(const Metric&)>& row_of) {
-  const auto add = [&judged](const std::string& text) {
-    judged.reason += (judged.reason.empty() ? "" : "; ") + text;
-  };
-  const auto tells = [](const Difference* row) {
-    return row != nullptr && !row->pairs.empty() &&
-           (!row->verdict || (*row->verdict != Verdict::kRegressed && *row->verdict != Verdict::kImproved &&
-                              *row->verdict != Verdict::kInconclusive));
-  };
+/// Adds what changed without being worse, and what stayed as it was.
+void complete(Judged& judged, bool expected) {
   if (judged.other_plans > 0) judged.verdict = std::max(judged.verdict, Verdict::kChanged);
   if (judged.differing > 0) {
-    add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
+    judged.add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
   } else {
-    add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
+    judged.add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
   }
-  if (row_of == nullptr) return;
-  const Difference* success = row_of(kSuccess);
-  if (tells(success) && success->lost + success->gained > 0) add(harmless_words(*success));
-  if (const Difference* time = row_of(kProcessTime); tells(time)) add(words(*time));
-  const Difference* flowtime = row_of(kFlowtime);
-  if (tells(flowtime) && judged.verdict > Verdict::kImproved) add(words(*flowtime));
+}
+
+/// The same of metrics over all cells that are no news.
+void complete_metrics(Judgement& judgement, bool excused) {
+  const auto calm = [&judgement](const Metric& metric) -> const Difference* {
+    const Difference* row = judgement.find(metric, std::nullopt);
+    return row == nullptr || row->pairs.empty() || is_news(*row) ? nullptr : row;
+  };
+  const Difference* success = calm(kSuccess);
+  if (success != nullptr && success->lost + success->gained > 0) judgement.all.add(harmless_words(*success));
+  if (const Difference* time = calm(kProcessTime); time != nullptr && !excused) {
+    const auto& rows = judgement.differences;
+    const bool some_slower = std::any_of(rows.begin(), rows.end(), [](const Difference& row) {
+      return row.metric == &kProcessTime && row.verdict >= Verdict::kInconclusive;
+    });
+    judgement.all.add((some_slower ? "over all cells " : "no slowdown: ") + words(*time));
+  }
+  const Difference* flowtime = calm(kFlowtime);
+  if (flowtime != nullptr && judgement.all.verdict > Verdict::kImproved) judgement.all.add(words(*flowtime));
 }
 
 }  // namespace
@@ -251,8 +253,7 @@ std::string words(const Difference& row) {
                        interval_text(-percent(row.at_most), -percent(row.at_least), false));
   }
   const std::string interval = interval_text(percent(row.at_least), percent(row.at_most), true);
-  return fmt::format("{}time {:+.1f} %{}", row.verdict == Verdict::kEquivalent ? "no slowdown: " : "", effect,
-                     interval);
+  return fmt::format("time {:+.1f} %{}", effect, interval);
 }
 
 std::string sight_text(const Judgement& judgement) {
@@ -266,6 +267,8 @@ std::string sight_text(const Judgement& judgement) {
   }
   return text;
 }
+
+void Judged::add(const std::string& why) { reason += (reason.empty() ? "" : "; ") + why; }
 
 void Judged::raise(Verdict to, const std::string& why) {
   if (to < verdict) return;
@@ -345,13 +348,12 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
   judge_recorded(cells, options.floors);
   const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
   judge_metrics(judgement, excused);
-  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes, nullptr);
+  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes);
   if (judgement.find(kProcessTime, std::nullopt) != nullptr)
     judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
-  complete(judgement.all, options.expects_changes, [&](const Metric& metric) {
-    return excused && &metric == &kProcessTime ? nullptr : judgement.find(metric, std::nullopt);
-  });
-  if (excused) judgement.all.reason += "; " + options.times_excuse;
+  complete(judgement.all, options.expects_changes);
+  complete_metrics(judgement, excused);
+  if (excused) judgement.all.add(options.times_excuse);
 }
 
 std::string_view heading(const Judgement& judgement, const Finding& finding) {

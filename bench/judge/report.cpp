@@ -81,11 +81,6 @@ TextRow judged_row(const Judgement& judgement, const Difference& row, bool with_
   return words;
 }
 
-bool is_news(const Difference& row) {
-  return row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
-         row.verdict == Verdict::kImproved;
-}
-
 TextRow time_row(const Judgement& judgement, const Difference& row) {
   return {judgement.at(row.cell).name,
           percent_more(row.effect),

@@ -173,7 +173,8 @@ TEST(Judgement, ALossThatIsSmallerThanWhatMattersIsNoAlarm) {
   // As few as suite smoke has: the interval reaches far, and what was measured is small.
   const Judgement few = judgement_of(with_lost(144, 15, 1));
   EXPECT_EQ(row(few, kSuccess, std::nullopt).verdict, Verdict::kChanged);
-  EXPECT_NE(few.all.reason.find(", within chance (sees from 34.2 points on)"), std::string::npos) << few.all.reason;
+  EXPECT_NE(few.all.reason.find(", within chance (sees from 34.2 points on)"), std::string::npos)
+      << few.all.reason;
   JudgeOptions strict;
   strict.floors[db::MetricKind::kSuccess] = 0;
   EXPECT_EQ(judgement_of(with_lost(900, 100, 3), strict).all.verdict, Verdict::kInconclusive);
@@ -434,6 +435,24 @@ TEST(Judgement, TheWorstCellIsNamedAndTheOthersAreCounted) {
       << result.all.reason;
   EXPECT_EQ(result.cells[0].verdict, Verdict::kSame);
   EXPECT_EQ(result.cells[1].verdict, Verdict::kRegressed);
+}
+
+TEST(Judgement, ASlowCellIsNotCalledNoSlowdownOfAll) {
+  const auto times = [](double log_ratio, Verdict verdict, std::optional<std::size_t> cell) {
+    Difference row{.metric = &kProcessTime, .cell = cell, .pairs = std::vector<double>(14, log_ratio)};
+    row.effect = row.at_least = row.at_most = log_ratio;
+    row.verdict = verdict;
+    return row;
+  };
+  for (const bool slower : {true, false}) {
+    Judgement judgement = measured({equal_cell(8)});
+    judgement.differences.push_back(times(0.002, Verdict::kEquivalent, std::nullopt));
+    judgement.differences.push_back(slower ? times(0.05, Verdict::kRegressed, 0)
+                                           : times(0.001, Verdict::kEquivalent, 0));
+    judge(judgement, {});
+    EXPECT_EQ(judgement.all.reason.find("no slowdown") == std::string::npos, slower) << judgement.all.reason;
+    EXPECT_EQ(judgement.all.reason.find("over all cells time +0.2 %") != std::string::npos, slower);
+  }
 }
 
 TEST(Judgement, PlansThatDifferWhenPlannedAgainAreARegression) {
