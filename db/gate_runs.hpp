@@ -24,7 +24,7 @@ struct GateCellRow {
   double noise = 0;               ///< standard error of `slowdown`
   double effect_floor = 0;
   std::optional<double> detectable;  ///< none: none can be told
-  std::string verdict;               ///< "regressed", "equivalent", "inconclusive"
+  std::string verdict;               ///< "regressed", "inconclusive", "equivalent" (also if faster)
   std::vector<double> pairs;         ///< slowdown of each pair
   std::vector<double> fresh_pairs;   ///< of those that were to confirm
 };

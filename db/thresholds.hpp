@@ -26,7 +26,8 @@ struct Threshold {
 
 /// A row for each kind, in order.
 inline constexpr std::array<Threshold, 5> kThresholds = {{
-    {MetricKind::kSuccess, "success", 0, "an instance that is lost for certain is never too small"},
+    {MetricKind::kSuccess, "success", 0.01,
+     "one planning in a hundred: what equal planners lose of suite density by chance is less"},
     {MetricKind::kQuality, "quality", 0.002, "less than the least gain of a change that was made for it"},
     {MetricKind::kCounts, "counts", 0.005, "exact, so that what a person would notice counts"},
     {MetricKind::kTime, "time", 0.01, "code that is moved about by any edit shifts times by as much"},

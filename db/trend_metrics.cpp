@@ -48,7 +48,7 @@ std::vector<TrendMetric> make_metrics() {
   constexpr double kTimeEffect = kUnpairedTimeFloor;
   constexpr double kWorkEffect = floor_of(MetricKind::kCounts);
   constexpr double kQualityEffect = floor_of(MetricKind::kQuality);
-  constexpr double kRateEffect = 0.01;
+  constexpr double kRateEffect = floor_of(MetricKind::kSuccess);
   return {
       {"success", "share of instances solved", "", true, false, true, kRateEffect, true,
        "1.0 * solved / results"},

@@ -26,6 +26,7 @@
 #include "bench/sweep/reporters.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/sweep/shard.hpp"
+#include "bench/sweep/shell_command.hpp"
 #include "bench/sweep/suites.hpp"
 #include "bench/sweep/sweep.hpp"
 #include "bench/sweep/task_plan.hpp"
@@ -132,9 +133,9 @@ db::RunInfo run_info(const BenchArguments& arguments, const bench::ExpandedSweep
 
 /// "sipplab show 1a2b3c4d": what to type next, for this program and history.
 std::string next_commands(const BenchArguments& arguments, const std::string& run) {
-  const std::string database = arguments.database ? " --db " + *arguments.database : "";
-  return fmt::format("next: {0} show{1} {2}, or {0} runs{1}", arguments.invocation.program, database,
-                     run.substr(0, kShortUuid));
+  const std::string database = arguments.database ? " --db " + bench::shell_word(*arguments.database) : "";
+  return fmt::format("next: {0} show{1} {2}, or {0} runs{1}", bench::shell_word(arguments.invocation.program),
+                     database, run.substr(0, kShortUuid));
 }
 
 int report(const BenchArguments& arguments, const bench::BenchmarkFlags& flags, bench::Sweep& sweep,
@@ -228,6 +229,14 @@ int run_bench(const BenchArguments& given, std::vector<std::string> benchmark_fl
   if (arguments.task) prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (arguments.repetitions > 1) {
     benchmark_flags.push_back(fmt::format("--benchmark_repetitions={}", arguments.repetitions));
+  }
+  for (const std::string& flag : benchmark_flags) {
+    const bool is_of_results =
+        flag.rfind("--benchmark_list_tests", 0) == 0 || flag.rfind("--benchmark_out", 0) == 0;
+    if (arguments.plan_tasks && is_of_results) {
+      return bad_usage("--plan-tasks runs no case, and all tasks would write to one place: expected no " +
+                       flag.substr(0, flag.find('=')));
+    }
   }
   const bench::BenchmarkFlags flags = SIPPLAB_TRY_OR(bad_usage, bench::initialize_benchmark(benchmark_flags));
   arguments.repetitions = flags.repetitions;

@@ -9,6 +9,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/sweep/shard.hpp"
+#include "bench/sweep/shell_command.hpp"
 #include "bench/sweep/task_plan.hpp"
 #include "db/run_names.hpp"
 #include "planner/io/text.hpp"
@@ -108,7 +109,8 @@ int plan_tasks(const BenchArguments& arguments, const db::RunInfo& info, const b
   print(
       fmt::format("{} plannings in {} tasks, about {:.0f} s in all\n", plan.plannings, plan.tasks, seconds));
   diagnose(fmt::format("next: each of `{0} task run {1} I`, I from 1 to {2}, then `{0} task collect {1}`",
-                       arguments.invocation.program, folder.string(), plan.tasks));
+                       bench::shell_word(arguments.invocation.program), bench::shell_word(folder.string()),
+                       plan.tasks));
   return kSuccess;
 }
 
@@ -147,7 +149,7 @@ std::vector<CLI::Option*> add_part_flags(CLI::App& command, BenchArguments& argu
                                          "expected duration of a task; makes at most 1000 tasks")
                              ->needs(plan)
                              ->excludes(tasks)
-                             ->check(CLI::PositiveNumber)
+                             ->check(check_positive_real)
                              ->capture_default_str();
   // Internal: given by `sipplab task run`.
   command.add_option("--task-of", arguments.task, "")->needs(shard)->group("");

@@ -62,7 +62,8 @@ Command add_compare_command(CLI::App& program) {
       "`run:`, `commit:` or `branch:` before it says which. For a commit, the newest result of each case\n"
       "counts. Judged over all cells together, then in each: success, flowtime, makespan, expansions,\n"
       "generations, tries, instructions, memory. Exit codes: 0 nothing is worse for certain; 1 regressed;\n"
-      "3 inconclusive (worse, which may be chance); 4 nothing comparable; with --exact 5 other plans.");
+      "3 inconclusive (it may be worse by more than the floor); 4 nothing comparable; with --exact 5 other\n"
+      "plans.");
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();
   command->add_option("B", arguments->head, "head: what is judged")->required();
   add_database_flag(*command, arguments->database);

@@ -38,17 +38,31 @@ std::string summary(std::size_t merged, const db::MergeReport& report) {
 
 int run_merge(const MergeArguments& arguments) {
   // Before the history is opened, which makes a missing one.
+  std::error_code error;
   for (const std::string& file : arguments.files) {
-    std::error_code error;
     if (!std::filesystem::exists(file, error)) {
-      return fail(file + ": no such file, expected a history");
+      return fail(file + ": no such file, expected a history; nothing is merged");
     }
+  }
+  if (!std::filesystem::exists(db::database_path(arguments.database), error)) {
+    std::vector<db::Error> refused;
+    for (const std::string& file : arguments.files) {
+      const auto source = db::Database::open_read_only(file);
+      if (source) {
+        refused.clear();
+        break;
+      }
+      refused.push_back(source.error());
+    }
+    int code = kSuccess;
+    for (const db::Error& reason : refused) code = fail(reason);
+    if (code != kSuccess) return code;
   }
   auto database = SIPPLAB_TRY_OR(fail, open_history(arguments.database));
   const std::vector<std::filesystem::path> files(arguments.files.begin(), arguments.files.end());
   const auto report = SIPPLAB_TRY_OR(fail, db::merge_into(database, files));
   int code = kSuccess;
-  for (const db::Error& error : report.refused) code = fail(error);
+  for (const db::Error& reason : report.refused) code = fail(reason);
   const std::size_t merged = files.size() - report.refused.size();
   if (arguments.json) {
     nlohmann::ordered_json added = nlohmann::ordered_json::object();

@@ -41,7 +41,8 @@ std::string typed_program(const std::string& path) {
   const std::filesystem::path here = std::filesystem::current_path(error);
   if (error || path.find('/') == std::string::npos) return path;
   const std::string relative = std::filesystem::path(path).lexically_proximate(here).string();
-  return relative.rfind("..", 0) == 0 ? path : relative;
+  if (relative.rfind("..", 0) == 0) return path;
+  return relative.find('/') == std::string::npos ? "./" + relative : relative;
 }
 
 Invocation invocation_of(int argc, char** argv) {

@@ -43,6 +43,14 @@ std::string percent(double log_ratio) {
   return std::isfinite(log_ratio) ? fmt::format("{:.1f} %", 100 * std::expm1(log_ratio)) : "-";
 }
 
+/// Where those are that are not listed: of the gate's own plannings, and of both sweeps.
+std::string all_findings(const GateRequest& request) {
+  std::string text = "`SELECT * FROM v_gate_differences`";
+  if (request.sweeps.empty()) return text;
+  const db::PairedCell& cell = request.sweeps.front();
+  return text + fmt::format(", `sipplab compare {:.8} {:.8} --list`", cell.base_run, cell.head_run);
+}
+
 }  // namespace
 
 Report gate_report(const GateRequest& request, const GateResult& result, const std::string& run) {
@@ -59,7 +67,7 @@ Report gate_report(const GateRequest& request, const GateResult& result, const s
            {"tolerance", request.tolerance},
            {"seconds", result.wall_s}},
           noise_text(request, result),
-          "SELECT * FROM v_gate_differences"};
+          all_findings(request)};
 }
 
 std::string noise_text(const GateRequest& request, const GateResult& result) {

@@ -69,7 +69,9 @@ Verdict verdict(const Difference& row) {
   if (is_worse(row)) return Verdict::kRegressed;
   if (is_better(row)) return Verdict::kImproved;
   if (row.at_most <= row.floor && row.at_least >= -row.floor) return Verdict::kEquivalent;
-  const bool doubtful = !row.cell && row.metric->doubts_pooled && row.effect > row.floor;
+  // Worse by as much as matters, or by more than chance gives, and by how much is not known well enough.
+  const bool is_worse_so_far = row.effect > row.floor || row.at_least > 0;
+  const bool doubtful = !row.cell && row.metric->doubts_pooled && is_worse_so_far;
   return doubtful ? Verdict::kInconclusive : Verdict::kChanged;
 }
 
@@ -169,6 +171,11 @@ std::size_t Difference::better() const {
       std::count_if(pairs.begin(), pairs.end(), [](double pair) { return pair < 0; }));
 }
 
+bool is_news(const Difference& row) {
+  return row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
+         row.verdict == Verdict::kImproved;
+}
+
 void evaluate(Difference& row) {
   // Lost plannings are counted by instance, and are a share of all plannings.
   const double scale = row.metric->test == Test::kSigns && row.plannings > 0
@@ -217,8 +224,9 @@ void judge_recorded(const std::vector<Difference*>& family, const Floors& floors
     row.adjusted_p = adjusted[i];
     row.floor = floors.of(*row.metric);
     const double level = kRecordedLevel / count(family.size());
-    row.detectable = row.metric->test == Test::kSigns ? detectable_losses(row.pairs, row.plannings, level)
-                                                      : detectable_by_ranks(row.pairs, level, row.floor);
+    row.detectable = row.metric->test == Test::kSigns
+                         ? detectable_losses(row.pairs, row.plannings, level, row.floor)
+                         : detectable_by_ranks(row.pairs, level, row.floor);
     row.verdict = verdict(row);
   }
 }

@@ -21,7 +21,7 @@ enum class Verdict {
   kEquivalent,    ///< what differs is below its floor
   kImproved,      ///< better for certain, and nothing that judges is worse
   kChanged,       ///< other results, and nothing that judges is worse for certain
-  kInconclusive,  ///< worse, which may be chance, or too noisy to tell
+  kInconclusive,  ///< may be worse by as much as matters, and may not: more pairs would tell
   kRegressed,
 };
 /// "same", "equivalent", "improved", "changed", "inconclusive", "regressed".
@@ -48,7 +48,7 @@ struct Metric {
   bool median = false;         ///< the effect is the median of the pairs, else their mean
   bool judges = false;         ///< in a cell; other metrics inform
   bool judges_pooled = false;  ///< over all cells together
-  bool doubts_pooled = false;  ///< there, a worse effect that may be chance is inconclusive
+  bool doubts_pooled = false;  ///< there, a worse effect that may matter and may be chance is inconclusive
   /// What one planning gave; 0 and less has no logarithm. None: the pairs are measured elsewhere.
   double (*value)(const db::ResultRow& row) = nullptr;
   bool of_machine = false;  ///< compared on one machine alone, and of unsolved plannings too
@@ -119,6 +119,9 @@ struct Difference {
   std::size_t worse() const;   ///< pairs above zero
   std::size_t better() const;  ///< pairs below
 };
+
+/// Whether a reader is to look at it: regressed, inconclusive or improved.
+bool is_news(const Difference& row);
 
 /// From its pairs: effect, interval and p value, adjusted by nothing.
 void evaluate(Difference& row);

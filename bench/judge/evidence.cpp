@@ -157,7 +157,7 @@ double detectable_by_ranks(const std::vector<double>& pairs, double level, doubl
                                              std::sqrt(kEfficiencyOfRanks));
 }
 
-double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level) {
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level, double floor) {
   const auto count = static_cast<double>(nets.size());
   const double z = db::statistics::normal_quantile(1 - level / 2);
   if (plannings == 0 || z * z >= count) return kInfinity;
@@ -167,11 +167,14 @@ double detectable_losses(const std::vector<double>& nets, std::size_t plannings,
   for (const double net : nets) (net > 0 ? lost : gained) += net * net;
   const double scatter = 2 * std::min(lost, gained);
   // Of q losses the sum of nets is q, and that of their squares scatter + q + q^2 / count, for some instances
-  // lose twice: the test finds q >= z sqrt(that), and no fewer than signs that all agree need.
+  // lose twice: the test finds q >= 1 + z sqrt(that), the 1 since sums of signs come in steps of two, and no
+  // fewer than signs that all agree need.
   const double share_of_square = 1 - z * z / count;
-  const double found =
-      (z * z + std::sqrt(z * z * (z * z + 4 * share_of_square * scatter))) / (2 * share_of_square);
-  const double least = std::max(found, std::ceil(1 - std::log2(level)));
+  const double linear = 2 + z * z;
+  const double found = (linear + std::sqrt(linear * linear - 4 * share_of_square * (1 - z * z * scatter))) /
+                       (2 * share_of_square);
+  const double least =
+      std::max({found, std::ceil(1 - std::log2(level)), floor * static_cast<double>(plannings)});
   // So many or more come in 95 of 100 comparisons.
   const double power = db::statistics::normal_quantile(kPower);
   const double root = (power + std::sqrt(power * power + 4 * (least + scatter))) / 2;

@@ -64,9 +64,9 @@ double detectable(const std::vector<double>& pairs, const GatePlan& plan, double
 /// are too few.
 double detectable_by_ranks(const std::vector<double>& pairs, double level, double floor);
 
-/// The share of `plannings` that must be lost, spread over the instances by chance, so that sign_flips()
-/// finds it at this level in 95 of 100 comparisons, when without it instances lose and gain as in `nets`. A
-/// normal approximation. Infinity if all are too few.
-double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level);
+/// The share of `plannings` that must be lost, spread over the instances by chance, so that in 95 of 100
+/// comparisons sign_flips() finds it at this level and it is above the floor, a share too, when without it
+/// instances lose and gain as in `nets`. A normal approximation. Infinity if all are too few.
+double detectable_losses(const std::vector<double>& nets, std::size_t plannings, double level, double floor);
 
 }  // namespace sipplab::bench

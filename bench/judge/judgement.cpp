@@ -99,10 +99,28 @@ std::string interval_text(double low, double high, bool signs) {
                : fmt::format(" (95 %: {:.1f} to {:.1f})", low, high);
 }
 
+/// "from 2.5 points on", "from 0.4 % on": what would have been found 19 times of 20.
+std::string seen_text(const Difference& row) {
+  if (!std::isfinite(row.detectable)) return "nothing with so few";
+  return row.metric == &kSuccess ? fmt::format("from {:.1f} points on", 100 * row.detectable)
+                                 : fmt::format("from {:.1f} % on", percent(row.detectable));
+}
+
 /// Why a row does not count for certain.
 std::string doubt(const Difference& row) {
   if (row.verdict != Verdict::kInconclusive) return "";
-  return row.metric->test == Test::kFreshPairs ? ", too noisy now to tell" : ", which may be chance";
+  if (row.metric->test == Test::kFreshPairs) return ", too noisy now to tell";
+  const bool certain = row.adjusted_p <= kRecordedLevel;
+  return fmt::format(", which may be {} (sees {})", certain ? "too small to matter" : "chance",
+                     seen_text(row));
+}
+
+/// What plannings were lost and gained, where that is no news: "success -0.2 points (95 %: ...)".
+std::string harmless_words(const Difference& success) {
+  const bool small = success.verdict == Verdict::kEquivalent;
+  return words(success) + (small                ? ", too small to matter"
+                           : success.effect > 0 ? fmt::format(", within chance (sees {})", seen_text(success))
+                                                : "");
 }
 
 /// What rows of one metric say together: the one over all cells, then the worst cell, the others counted.
@@ -156,8 +174,7 @@ void judge_metrics(Judgement& judgement, bool excused) {
       judgement.all.verdict = std::max(judgement.all.verdict, verdict);
     }
   }
-  for (const std::string& text : said)
-    judgement.all.reason += (judgement.all.reason.empty() ? "" : "; ") + text;
+  for (const std::string& text : said) judgement.all.add(text);
 }
 
 std::string changes_text(const Judged& judged) {
@@ -186,23 +203,32 @@ void judge_behaviour(Judgement& judgement) {
 }
 
 /// Adds what changed without being worse, and what stayed as it was.
-void complete(Judged& judged, bool expected, const Difference* time, const Difference* flowtime) {
-  const auto add = [&judged](const std::string& text) {
-    judged.reason += (judged.reason.empty() ? "" : "; ") + text;
-  };
-  const auto tells = [](const Difference* row) {
-    return row != nullptr && !row->pairs.empty() &&
-           (!row->verdict || (*row->verdict != Verdict::kRegressed && *row->verdict != Verdict::kImproved &&
-                              *row->verdict != Verdict::kInconclusive));
-  };
+void complete(Judged& judged, bool expected) {
   if (judged.other_plans > 0) judged.verdict = std::max(judged.verdict, Verdict::kChanged);
   if (judged.differing > 0) {
-    add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
+    judged.add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
   } else {
-    add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
+    judged.add(judged.verdict <= Verdict::kImproved ? sameness_text(judged) : "plans unchanged");
   }
-  if (tells(time)) add(words(*time));
-  if (tells(flowtime) && judged.verdict > Verdict::kImproved) add(words(*flowtime));
+}
+
+/// The same of metrics over all cells that are no news.
+void complete_metrics(Judgement& judgement, bool excused) {
+  const auto calm = [&judgement](const Metric& metric) -> const Difference* {
+    const Difference* row = judgement.find(metric, std::nullopt);
+    return row == nullptr || row->pairs.empty() || is_news(*row) ? nullptr : row;
+  };
+  const Difference* success = calm(kSuccess);
+  if (success != nullptr && success->lost + success->gained > 0) judgement.all.add(harmless_words(*success));
+  if (const Difference* time = calm(kProcessTime); time != nullptr && !excused) {
+    const auto& rows = judgement.differences;
+    const bool some_slower = std::any_of(rows.begin(), rows.end(), [](const Difference& row) {
+      return row.metric == &kProcessTime && row.verdict >= Verdict::kInconclusive;
+    });
+    judgement.all.add((some_slower ? "over all cells " : "no slowdown: ") + words(*time));
+  }
+  const Difference* flowtime = calm(kFlowtime);
+  if (flowtime != nullptr && judgement.all.verdict > Verdict::kImproved) judgement.all.add(words(*flowtime));
 }
 
 }  // namespace
@@ -210,8 +236,9 @@ void complete(Judged& judged, bool expected, const Difference* time, const Diffe
 std::string words(const Difference& row) {
   const double effect = percent(row.effect);
   if (row.metric == &kSuccess) {
-    return fmt::format("success {:+.1f} points: {} of {} plannings lost, {} gained (p = {:.2g})",
-                       -100 * row.effect, row.lost, row.plannings, row.gained, row.adjusted_p);
+    return fmt::format("success {:+.1f} points{}: {} of {} plannings lost, {} gained, p = {:.2g}",
+                       -100 * row.effect, interval_text(-100 * row.at_most, -100 * row.at_least, true),
+                       row.lost, row.plannings, row.gained, row.adjusted_p);
   }
   if (row.metric != &kProcessTime) {
     return fmt::format("{} {:+.1f} %{}", row.metric->name, effect,
@@ -226,8 +253,7 @@ std::string words(const Difference& row) {
                        interval_text(-percent(row.at_most), -percent(row.at_least), false));
   }
   const std::string interval = interval_text(percent(row.at_least), percent(row.at_most), true);
-  return fmt::format("{}time {:+.1f} %{}", row.verdict == Verdict::kEquivalent ? "no slowdown: " : "", effect,
-                     interval);
+  return fmt::format("time {:+.1f} %{}", effect, interval);
 }
 
 std::string sight_text(const Judgement& judgement) {
@@ -237,14 +263,12 @@ std::string sight_text(const Judgement& judgement) {
     if (metric->value == nullptr || !metric->judges_pooled || row == nullptr || row->pairs.empty()) continue;
     // Where nothing differs, nothing is known of how changes scatter.
     if (metric != &kSuccess && row->worse() + row->better() == 0) continue;
-    const std::string from = !std::isfinite(row->detectable) ? "nothing with so few"
-                             : metric == &kSuccess
-                                 ? fmt::format("from {:.1f} points on", 100 * row->detectable)
-                                 : fmt::format("from {:.1f} % on", percent(row->detectable));
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, from);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", metric->name, seen_text(*row));
   }
   return text;
 }
+
+void Judged::add(const std::string& why) { reason += (reason.empty() ? "" : "; ") + why; }
 
 void Judged::raise(Verdict to, const std::string& why) {
   if (to < verdict) return;
@@ -324,12 +348,12 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
   judge_recorded(cells, options.floors);
   const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
   judge_metrics(judgement, excused);
-  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes, nullptr, nullptr);
-  const Difference* time = judgement.find(kProcessTime, std::nullopt);
-  if (time != nullptr) judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
-  complete(judgement.all, options.expects_changes, excused ? nullptr : time,
-           judgement.find(kFlowtime, std::nullopt));
-  if (excused) judgement.all.reason += "; " + options.times_excuse;
+  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes);
+  if (judgement.find(kProcessTime, std::nullopt) != nullptr)
+    judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
+  complete(judgement.all, options.expects_changes);
+  complete_metrics(judgement, excused);
+  if (excused) judgement.all.add(options.times_excuse);
 }
 
 std::string_view heading(const Judgement& judgement, const Finding& finding) {

@@ -38,6 +38,8 @@ struct Judged {
   Verdict verdict = Verdict::kSame;
   std::string reason;  ///< one line
 
+  /// One more reason, behind the others.
+  void add(const std::string& why);
   /// A graver verdict replaces the reasons of lesser ones; an equal one adds its own.
   void raise(Verdict to, const std::string& why);
 };

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "bench/sweep/shell_command.hpp"
 #include "bench/sweep/sweep_case.hpp"
 
 namespace sipplab::bench {
@@ -69,11 +70,12 @@ std::string replay_command(const db::CaseInfo& parameters, const std::string& in
     return fmt::format("sipplab plan --instance {}{}{}", file, bodies, option_flags(options_of(parameters)));
   };
   if (parameters.map_spec == "files" || !index || !seed) {
-    return plan(instance_name);
+    return plan(shell_word(instance_name));
   }
   return fmt::format("sipplab generate --map {} --agents {} --seed {} --count {}{} -o replay {} {}",
-                     parameters.map_spec, parameters.robots, *seed, *index + 1, body_flags(instance_name),
-                     is_ours ? "&&" : "and", plan(fmt::format("replay/{}.xml", *index)));
+                     shell_word(parameters.map_spec), parameters.robots, *seed, *index + 1,
+                     body_flags(instance_name), is_ours ? "&&" : "and",
+                     plan(fmt::format("replay/{}.xml", *index)));
 }
 
 }  // namespace sipplab::bench

@@ -30,6 +30,12 @@ std::string p_text(const Difference* row) {
   return row == nullptr || row->pairs.empty() ? kNothing : p_text(row->adjusted_p);
 }
 
+/// Processes are tested for being slower and for being faster: the test of the side that the effect is on.
+double p_of_its_side(const Difference& row) {
+  const bool faster = row.metric->test == Test::kFreshPairs && row.effect < 0;
+  return faster ? row.adjusted_faster_p : row.adjusted_p;
+}
+
 TextRow behaviour_row(const Judgement& judgement, Cell number, bool times) {
   const Judged& cell = judgement.at(number);
   const Difference& success = *judgement.find(kSuccess, number);
@@ -62,30 +68,24 @@ TextRow judged_row(const Judgement& judgement, const Difference& row, bool with_
   const double low = share ? row.at_most : row.at_least;
   const double high = share ? row.at_least : row.at_most;
   const std::string interval = std::isfinite(low) ? text(low) + " to " + text(high) : kNothing;
-  TextRow words = {
-      std::string(row.metric->name),
-      std::to_string(row.pairs.size()),
-      text(row.effect),
-      interval,
-      p_text(row.effect < 0 && row.metric == &kProcessTime ? row.adjusted_faster_p : row.adjusted_p),
-      !std::isfinite(row.detectable) ? kNothing
-      : share                        ? fmt::format("{:.1f} points", 100 * row.detectable)
-                                     : fmt::format("{:.1f} %", 100 * std::expm1(row.detectable)),
-      std::string(name(*row.verdict))};
+  TextRow words = {std::string(row.metric->name),
+                   std::to_string(row.pairs.size()),
+                   text(row.effect),
+                   interval,
+                   p_text(p_of_its_side(row)),
+                   !std::isfinite(row.detectable) ? kNothing
+                   : share                        ? fmt::format("{:.1f} points", 100 * row.detectable)
+                                                  : fmt::format("{:.1f} %", 100 * std::expm1(row.detectable)),
+                   std::string(name(*row.verdict))};
   if (with_cell) words.insert(words.begin(), judgement.at(row.cell).name);
   return words;
-}
-
-bool is_news(const Difference& row) {
-  return row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
-         row.verdict == Verdict::kImproved;
 }
 
 TextRow time_row(const Judgement& judgement, const Difference& row) {
   return {judgement.at(row.cell).name,
           percent_more(row.effect),
           percent_more(row.at_most),
-          p_text(row.adjusted_p),
+          p_text(p_of_its_side(row)),
           row.confirmation ? percent_more(row.confirmation->effect) : kNothing,
           row.confirmation ? p_text(row.confirmation->p_value) : kNothing,
           percent_more(row.detectable),

@@ -314,32 +314,40 @@ class Script {
         return fmt::format("pointtype {} pointsize {:.2f} linewidth 1.2 linecolor rgb '{}'",
                            hollow ? filled - 1 : filled, size, in);
       };
+      // In SVG each dot says what it stands for when the pointer rests on it.
+      const std::string with_dots = format_ == PictureFormat::kPdf || one.points.size() > kMostDots
+                                        ? "using 1:2 with points"
+                                        : "using 1:2:5 with labels hypertext point";
       if (one.style == LineStyle::kBoxes) {
         boxes(i, one, colour, add);
       } else {
         const std::string data = fmt::format("$line{}", i);
         const bool dotted = one.style != LineStyle::kSteps && one.points.size() <= kMostDots;
         points(data, one, [](const ChartPoint&) { return true; });
-        points(data + "_hollow", one, [&](const ChartPoint& point) { return point.hollow || one.dashed; });
-        points(data + "_full", one, [&](const ChartPoint& point) { return !point.hollow && !one.dashed; });
+        const bool any_hollow = points(data + "_hollow", one,
+                                       [&](const ChartPoint& point) { return point.hollow || one.dashed; });
+        const bool any_full = points(data + "_full", one,
+                                     [&](const ChartPoint& point) { return !point.hollow && !one.dashed; });
         const bool intervals = std::any_of(one.points.begin(), one.points.end(), [](const ChartPoint& point) {
           return point.interval.has_value();
         });
         if (intervals) {
-          add(fmt::format(
-              "{} using 1:2:3:4 with yerrorbars pointtype -1 linewidth 0.9 linecolor rgb '{}' notitle", data,
-              colour));
+          // Gnuplot's own bars of errors have a white dot below, which hides what other lines have there.
+          const std::string bars =
+              "using 1:3:(0):($4-$3) with vectors heads size graph 0.008,90 linewidth 0.9";
+          add(fmt::format("{} {} linecolor rgb '{}' notitle", data, bars, colour));
         }
         if (one.style == LineStyle::kLine)
           add(fmt::format("{} using 1:2 with lines {} notitle", data, stroke));
         if (one.style == LineStyle::kSteps)
           add(fmt::format("{} using 1:2 with steps {} notitle", data, stroke));
         if (dotted || one.style == LineStyle::kPoints) {
-          if (one.style == LineStyle::kLine) {
+          // Gnuplot ends with nothing said where hints have no point.
+          if (any_hollow && one.style == LineStyle::kLine) {
             add(fmt::format("{}_hollow using 1:2 with points {} notitle", data, dots(false, "#ffffff")));
           }
-          add(fmt::format("{}_hollow using 1:2 with points {} notitle", data, dots(true, colour)));
-          add(fmt::format("{}_full using 1:2 with points {} notitle", data, dots(false, colour)));
+          if (any_hollow) add(fmt::format("{}_hollow {} {} notitle", data, with_dots, dots(true, colour)));
+          if (any_full) add(fmt::format("{}_full {} {} notitle", data, with_dots, dots(false, colour)));
         }
       }
       if (one.label.empty()) continue;
@@ -355,19 +363,38 @@ class Script {
     line(plots + keys);
   }
 
+  /// Whether there is any.
   template <class Keep>
-  void points(const std::string& name, const ChartLine& one, const Keep& keep) {
+  bool points(const std::string& name, const ChartLine& one, const Keep& keep) {
     line(name + " << EOD");
     bool any = false;
     for (const ChartPoint& point : one.points) {
       if (!is_drawn(chart_, point) || !keep(point)) continue;
       any = true;
       const auto interval = point.interval.value_or(std::pair{point.y, point.y});
-      line(fmt::format("{} {} {} {}", format_real(point.x), format_real(point.y), format_real(interval.first),
-                       format_real(interval.second)));
+      line(fmt::format("{} {} {} {} \"{}\"", format_real(point.x), format_real(point.y),
+                       format_real(interval.first), format_real(interval.second), words_of(one, point)));
     }
     if (!any) line("NaN NaN NaN NaN");
     line("EOD");
+    return any;
+  }
+
+  /// "0.9 (0.8 to 0.95) at 64, ssi 5": without what would end the text or be a command in it.
+  std::string words_of(const ChartLine& one, const ChartPoint& point) const {
+    const auto tick = std::find_if(chart_.x_ticks.begin(), chart_.x_ticks.end(),
+                                   [&point](const auto& known) { return known.first == point.x; });
+    std::string words = short_number(point.y);
+    if (point.interval) {
+      words += fmt::format(" ({} to {})", short_number(point.interval->first),
+                           short_number(point.interval->second));
+    }
+    words += " at " + (tick == chart_.x_ticks.end() ? short_number(point.x) : tick->second);
+    if (!one.label.empty()) words += ", " + one.label;
+    for (char& c : words) {
+      if (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\\') c = ' ';
+    }
+    return words;
   }
 
   template <class Add>

@@ -50,6 +50,9 @@ std::string own_svg(std::string text, const Chart& chart, bool within_page, std:
   }
   const std::size_t described = text.find("<desc>");
   if (described != std::string::npos) text.erase(described, text.find("</desc>") + 7 - described);
+  // Hints need no program in the picture.
+  replace_all(text, "<g onmousemove=\"gnuplot_svg.showHypertext(evt,'", "<g><title>");
+  replace_all(text, "')\" onmouseout=\"gnuplot_svg.hideHypertext()\">", "</title>");
   erase_empty_groups(text);
   if (!within_page) return text;
   text.erase(0, text.find("<svg"));

@@ -58,6 +58,10 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
+std::string shell_word(const std::string& text) {
+  return !text.empty() && is_plain_word(text) ? text : shell_quoted(text);
+}
+
 std::vector<std::string> from_program(const std::string& command) {
   std::istringstream text(command);
   std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};

@@ -10,6 +10,9 @@ namespace sipplab::bench {
 /// The text as one word of the shell.
 std::string shell_quoted(const std::string& text);
 
+/// The same, without quotes where the text needs none: for people to read.
+std::string shell_word(const std::string& text);
+
 /// Whether a word means itself to the shell, and may name a file by its path.
 bool is_plain_path(std::string_view word);
 

@@ -183,6 +183,9 @@ TEST(GateEvidence, AFasterHeadIsAnImprovementWhenFreshPairsSayItToo) {
   EXPECT_EQ(judgement.all.verdict, Verdict::kImproved);
   EXPECT_EQ(judgement.all.reason.find("faster: 4.9 % less time (95 %: 4.9 to 4.9)"), 0U)
       << judgement.all.reason;
+  const std::string text = report_markdown({judgement, "sipplab gate", "a", "b"});
+  EXPECT_NE(text.find("| all cells | -4.88 % | -4.88 % | "), std::string::npos) << text;
+  EXPECT_EQ(text.find("| all cells | -4.88 % | -4.88 % | 1 |"), std::string::npos) << "the other side's test";
 }
 
 TEST(GateEvidence, WhatItSaysThatItSeesIsWhatItSees) {

@@ -82,6 +82,11 @@ refused 'not a plan of tasks' task collect odd --db none.db
 [ ! -e none.db ] || complain 'a history was made by collecting nothing'
 bench --plan-tasks tasks --tasks 5
 says '^[0-9]+ plannings in 5 tasks'
+for useless in --benchmark_list_tests=true --benchmark_out=all.json; do
+  refused "runs no case.*${useless%%=*}" bench --suite smoke --plan-tasks useless "$useless"
+done
+refused 'seconds-per-task.*nan' bench --suite smoke --plan-tasks useless --seconds-per-task nan
+[ ! -e useless ] && [ ! -e all.json ] || complain "a sweep that was refused left files"
 refused 'holds a sweep' bench --suite smoke --plan-tasks tasks
 refused 'no task: expected its number' task run tasks
 refused "'6', expected a number from 1 to 5" task run tasks 6
@@ -109,8 +114,12 @@ expect 0 task collect tasks --db collected.db
 says '0 new'
 equal "$(ask 'SELECT status, missing, attempts FROM v_sweeps' collected.db)" "finished|0|5" "the collected sweep"
 equal "$(ask 'SELECT command_line FROM run' collected.db)" "sipplab bench --suite smoke --robots 8,16 --ssi 0,3 --count 3" "its command"
-bench --db one.db
-cmp -s <(ask "$outcomes" collected.db) <(ask "$outcomes" one.db) || complain "five tasks are not what one process makes"
+mkdir 'a folder'
+bench --db 'a folder/one.db'
+says "^next: .* show --db 'a folder/one.db' [0-9a-f]+, or .* runs --db 'a folder/one.db'$" err
+bench --plan-tasks 'a folder/tasks'
+says "sipplab task collect 'a folder/tasks'" err
+cmp -s <(ask "$outcomes" collected.db) <(ask "$outcomes" 'a folder/one.db') || complain "five tasks are not what one process makes"
 expect 0 doctor --db collected.db
 # A task's disk that fills up, has room again, and cannot be written any more, where one can be mounted.
 if unshare --mount --map-root-user true 2>/dev/null; then
@@ -149,6 +158,9 @@ cmp -s <(ask "$outcomes" collected.db) <(expect 0 task collect tasks --db collec
 
 refused 'merged into itself' merge sipplab.db
 refused 'none.db: no such file' merge none.db
+refused 'none.db: no such file.*nothing is merged' merge a.db none.db b.db
+: >empty.db
+refused 'empty.db: an empty file' merge empty.db --db fresh.db
 refused 'none.db: no such file' merge none.db --db fresh.db
 [ ! -e fresh.db ] || complain "a history was made by merging nothing"
 

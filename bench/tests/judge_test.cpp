@@ -146,9 +146,55 @@ TEST(Judgement, OneLostMayBeChanceAndManyAreNot) {
   const Judgement result = judgement_of(cells);
   EXPECT_EQ(result.all.verdict, Verdict::kRegressed);
   EXPECT_DOUBLE_EQ(row(result, kSuccess, std::nullopt).adjusted_p, 7 * 2.0 / 4096);
-  EXPECT_EQ(result.all.reason.find("success -30.0 points: 12 of 40 plannings lost, 0 gained (p = 0.0034)"),
+  EXPECT_EQ(result.all.reason.find("success -30.0 points (95 %: -44.8 to -15.2): 12 of 40 plannings lost, 0 "
+                                   "gained, p = 0.0034"),
             0U)
       << result.all.reason;
+}
+
+/// 900 plannings of 100 instances, as suite density has; the head loses the first of some instances.
+std::vector<db::PairedCell> with_lost(std::size_t plannings, std::size_t instances, std::size_t lost) {
+  std::vector<db::PairedCell> cells = {equal_cell(plannings)};
+  for (std::size_t i = 0; i < plannings; ++i) {
+    cells[0].results[i].instance_hash = "hash " + std::to_string(i % instances);
+    if (i < lost) cells[0].results[i].head = failed();
+  }
+  return cells;
+}
+
+TEST(Judgement, ALossThatIsSmallerThanWhatMattersIsNoAlarm) {
+  const Judgement small = judgement_of(with_lost(900, 100, 3));
+  EXPECT_EQ(row(small, kSuccess, std::nullopt).verdict, Verdict::kEquivalent);
+  EXPECT_EQ(small.all.verdict, Verdict::kChanged);
+  EXPECT_EQ(
+      small.all.reason,
+      "3 of 900 plannings changed; success -0.3 points (95 %: -0.7 to +0.0): 3 of 900 plannings lost, 0 "
+      "gained, p = 1, too small to matter; flowtime +0.0 %");
+  // As few as suite smoke has: the interval reaches far, and what was measured is small.
+  const Judgement few = judgement_of(with_lost(144, 15, 1));
+  EXPECT_EQ(row(few, kSuccess, std::nullopt).verdict, Verdict::kChanged);
+  EXPECT_NE(few.all.reason.find(", within chance (sees from 34.2 points on)"), std::string::npos)
+      << few.all.reason;
+  JudgeOptions strict;
+  strict.floors[db::MetricKind::kSuccess] = 0;
+  EXPECT_EQ(judgement_of(with_lost(900, 100, 3), strict).all.verdict, Verdict::kInconclusive);
+}
+
+TEST(Judgement, ALossThatMayMatterIsInconclusive) {
+  const Judgement chance = judgement_of(with_lost(144, 15, 2));
+  EXPECT_EQ(chance.all.verdict, Verdict::kInconclusive);
+  EXPECT_NE(chance.all.reason.find(", which may be chance (sees from "), std::string::npos)
+      << chance.all.reason;
+  // Less than a point, but more than chance alone gives: it may be more than a point.
+  const Judgement leaning = judgement_of(with_lost(900, 100, 7));
+  EXPECT_EQ(leaning.all.verdict, Verdict::kInconclusive);
+  EXPECT_LT(row(leaning, kSuccess, std::nullopt).effect, 0.01);
+  // Certain, and of a size that is not known well enough.
+  const Judgement certain = judgement_of(with_lost(1600, 400, 14));
+  EXPECT_EQ(certain.all.verdict, Verdict::kInconclusive);
+  EXPECT_LE(row(certain, kSuccess, std::nullopt).adjusted_p, kRecordedLevel);
+  EXPECT_NE(certain.all.reason.find(", which may be too small to matter (sees from "), std::string::npos)
+      << certain.all.reason;
 }
 
 TEST(Judgement, RepetitionsAndEqualFilesAreOneObservation) {
@@ -321,7 +367,7 @@ TEST(Judgement, SaysWhatItCouldHaveSeen) {
               2e-5);
   EXPECT_NE(
       report_text({result, "sipplab compare", "a", "b"})
-          .find("sees, 19 times of 20, with 100 plannings of 100 instances: success from 18.4 points on, "
+          .find("sees, 19 times of 20, with 100 plannings of 100 instances: success from 21.0 points on, "
                 "flowtime from 0.5 % on"),
       std::string::npos)
       << report_text({result, "sipplab compare", "a", "b"});
@@ -389,6 +435,24 @@ TEST(Judgement, TheWorstCellIsNamedAndTheOthersAreCounted) {
       << result.all.reason;
   EXPECT_EQ(result.cells[0].verdict, Verdict::kSame);
   EXPECT_EQ(result.cells[1].verdict, Verdict::kRegressed);
+}
+
+TEST(Judgement, ASlowCellIsNotCalledNoSlowdownOfAll) {
+  const auto times = [](double log_ratio, Verdict verdict, std::optional<std::size_t> cell) {
+    Difference row{.metric = &kProcessTime, .cell = cell, .pairs = std::vector<double>(14, log_ratio)};
+    row.effect = row.at_least = row.at_most = log_ratio;
+    row.verdict = verdict;
+    return row;
+  };
+  for (const bool slower : {true, false}) {
+    Judgement judgement = measured({equal_cell(8)});
+    judgement.differences.push_back(times(0.002, Verdict::kEquivalent, std::nullopt));
+    judgement.differences.push_back(slower ? times(0.05, Verdict::kRegressed, 0)
+                                           : times(0.001, Verdict::kEquivalent, 0));
+    judge(judgement, {});
+    EXPECT_EQ(judgement.all.reason.find("no slowdown") == std::string::npos, slower) << judgement.all.reason;
+    EXPECT_EQ(judgement.all.reason.find("over all cells time +0.2 %") != std::string::npos, slower);
+  }
 }
 
 TEST(Judgement, PlansThatDifferWhenPlannedAgainAreARegression) {

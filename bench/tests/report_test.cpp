@@ -67,18 +67,33 @@ std::string picture_of(const Chart& chart, PictureFormat format = PictureFormat:
 TEST(Charts, hold_every_point_and_no_name_is_a_command) {
   const std::string script = script_of(sample_chart());
   EXPECT_NE(script.find("'it''s `date` @x \"c\" <b>'"), std::string::npos) << script;
-  EXPECT_NE(script.find("\n16 1 1 1\n32 0.5 0.5 0.5\n"), std::string::npos) << script;
-  EXPECT_NE(script.find("$line0_hollow << EOD\n64 0 0 0\nEOD"), std::string::npos) << script;
+  EXPECT_NE(script.find("\n16 1 1 1 \"1 at 16, ssi 3\"\n32 0.5 0.5 0.5 \""), std::string::npos) << script;
+  EXPECT_NE(script.find("$line0_hollow << EOD\n64 0 0 0 \"0 at 64, ssi 3\"\nEOD"), std::string::npos)
+      << script;
   Chart named = sample_chart();
   named.lines[0].label = "a\nplot 'b'";
   EXPECT_EQ(script_of(named).find("\nplot 'b'"), std::string::npos) << "a name ends no line";
+}
+
+TEST(Charts, say_of_each_point_what_it_is_when_the_pointer_rests_on_it) {
+  Chart chart = sample_chart();
+  chart.lines[0].label = "<b> & 'c' \"d\" \\n";
+  chart.lines[0].points[1].interval = {0.25, 0.75};
+  chart.x_ticks = {{64, "1a2b3c"}};
+  const std::string picture = picture_of(chart);
+  EXPECT_NE(picture.find("<g><title>0.5 (0.25 to 0.75) at 32, &lt;b> &amp; 'c'  d   n</title>"),
+            std::string::npos)
+      << picture;
+  EXPECT_NE(picture.find("<title>0 at 1a2b3c, "), std::string::npos);
+  EXPECT_EQ(count(picture, "onmouse"), 0U);
+  EXPECT_EQ(count(picture, "#FFFFFF"), 1U) << "behind a hollow point, and behind no interval";
 }
 
 TEST(Charts, are_drawn_as_a_file_within_a_page_and_as_pdf) {
   const std::string file = picture_of(sample_chart());
   EXPECT_NE(file.find("<title>it's `date` @x &quot;c&quot; &lt;b&gt;</title>"), std::string::npos)
       << file.substr(0, 600);
-  EXPECT_EQ(count(file, "<title>"), 1U) << "nothing that gnuplot calls its parts";
+  EXPECT_EQ(count(file, "<title>"), 4U) << "of the chart and its points, and of nothing else";
   EXPECT_NE(file.find("ssi 3"), std::string::npos);
   const auto page =
       with_pictures(picture_place(1) + "|" + picture_place(0), {sample_chart(), sample_chart()});

@@ -69,8 +69,10 @@ cat >sipplab.sh <<'TEXT'
 #!/bin/sh
 case "$1" in
   bench) printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
+  sql) printf 'count(*)\r\n0\r\n' ;;
   gate)
     echo "$@" >>"$LOG"
+    [ "$2" != --calibrate ] || exit 0
     head=''
     while [ $# -gt 0 ]; do [ "$1" = --head ] && head=$2; shift; done
     code=$(cat "$(dirname "$head")/code")
@@ -121,6 +123,9 @@ rm -f build/base/*/build/release/code # a build that is there is not made again
 : >"$LOG" && judge scripts/pull-request HEAD~3 --expect-changes
 grep -q -- --expect-changes "$LOG" || complain 'pull-request did not pass on what is expected'
 [ -z "$(find build/base -name code -path '*release*')" ] || complain 'the base was built twice'
+: >"$LOG" && judge scripts/pull-request HEAD~3 --calibrate 2
+grep -q -- '--calibrate --comparisons 2' "$LOG" || complain 'pull-request did not measure the noise'
+! grep ': line [0-9]*: \[' "$work.err" || complain 'pull-request compares what is no number'
 
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"

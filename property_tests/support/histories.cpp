@@ -60,6 +60,15 @@ Table rows_of(Database& database, const std::string& sql) {
   return must(rest_of(must(sqlite::Statement::prepare(database.connection(), sql, kAsking))));
 }
 
+Texts texts_of(Database& database, const std::string& sql) {
+  Texts texts;
+  for (const auto& row : rows_of(database, sql).rows) texts.push_back(std::get<std::string>(row[0]));
+  return texts;
+}
+Texts views_of(Database& database) {
+  return texts_of(database, "SELECT name FROM sqlite_schema WHERE type = 'view' ORDER BY name");
+}
+
 NewHistory::NewHistory() {
   static const ScratchFolder kPattern;
   static const std::filesystem::path kEmpty = kPattern.path() / "history.db";

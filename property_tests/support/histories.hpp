@@ -17,6 +17,7 @@
 #include "db/property_runs.hpp"
 #include "db/recorder.hpp"
 #include "db/table.hpp"
+#include "property_tests/support/property.hpp"
 #include "property_tests/support/scratch_folder.hpp"
 
 namespace sipplab::db {
@@ -34,10 +35,19 @@ bool any_flag();
 /// The numbers below `size`, shuffled.
 std::vector<std::size_t> any_order(std::size_t size);
 
+using Texts = std::vector<std::string>;
+
+/// Of properties whose histories hold some of everything and are asked everything: few cases.
+inline constexpr int kWholeHistories = (kCasesOfHistories + 12) / 13;
+
 /// The first column of the first row.
 std::int64_t ask(Database& database, const std::string& sql);
 /// All rows.
 Table rows_of(Database& database, const std::string& sql);
+/// The first column of all rows.
+Texts texts_of(Database& database, const std::string& sql);
+/// By name.
+Texts views_of(Database& database);
 
 /// A folder with an empty history in it: a copy, since making one takes longer than most
 /// of what is done to it here.
