@@ -44,8 +44,7 @@ class Detours {
       for (std::int32_t x = middle.x - kFarthest; x <= middle.x + kFarthest; ++x) {
         const Vec2 place = centre(Cell{x, y});
         const double offset = dot(place - met, aside);
-        const double forward = dot(place - move.path.from, along);
-        if ((offset < left && -offset < right) || forward <= 0 || forward >= move.path.length) continue;
+        if (offset < left && -offset < right) continue;
         keep({{x, y}, norm(place - move.path.from) + norm(move.path.to - place)}, offset > 0 ? 0 : kPerSide);
       }
     }
