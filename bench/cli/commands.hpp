@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sipplab::cli {
@@ -20,6 +21,21 @@ struct Invocation {
   std::string command_line;  ///< "sipplab bench --suite smoke"
   std::vector<std::string> arguments = {};
 };
+
+/// What adds a command to the program.
+using AddCommand = Command (*)(CLI::App& program, const Invocation& invocation);
+
+/// A command by its name on the command line.
+struct NamedCommand {
+  std::string_view name;
+  AddCommand add;
+};
+
+/// Of a command that does not ask how it was called.
+template <Command (*Add)(CLI::App& program)>
+Command add_plainly(CLI::App& program, const Invocation&) {
+  return Add(program);
+}
 
 Command add_plan_command(CLI::App& program);
 Command add_validate_command(CLI::App& program);

@@ -1,6 +1,5 @@
 // sipplab with everything: planner, benchmarks and history.
 #include <filesystem>
-#include <vector>
 
 #include "bench/cli/program.hpp"
 #include "db/database.hpp"
@@ -8,28 +7,26 @@
 namespace sipplab::cli {
 namespace {
 
-std::vector<Command> add_laboratory_commands(CLI::App& program, const Invocation& invocation) {
-  return {
-      add_bench_command(program, invocation),
-      add_planners_command(program),
-      add_runs_command(program),
-      add_show_command(program),
-      add_sql_command(program),
-      add_property_command(program, invocation),
-      add_fuzz_command(program),
-      add_findings_command(program, invocation),
-      add_compare_command(program),
-      add_gate_command(program),
-      add_trend_command(program),
-      add_merge_command(program),
-      add_task_command(program),
-      add_doctor_command(program),
-      add_import_command(program),
-      add_report_command(program),
-      add_plot_command(program),
-      add_reproduce_command(program, invocation),
-  };
-}
+constexpr NamedCommand kLaboratoryCommands[] = {
+    {"bench", add_bench_command},
+    {"planners", add_plainly<add_planners_command>},
+    {"runs", add_plainly<add_runs_command>},
+    {"show", add_plainly<add_show_command>},
+    {"sql", add_plainly<add_sql_command>},
+    {"property", add_property_command},
+    {"fuzz", add_plainly<add_fuzz_command>},
+    {"findings", add_findings_command},
+    {"compare", add_plainly<add_compare_command>},
+    {"gate", add_plainly<add_gate_command>},
+    {"trend", add_plainly<add_trend_command>},
+    {"merge", add_plainly<add_merge_command>},
+    {"task", add_plainly<add_task_command>},
+    {"doctor", add_plainly<add_doctor_command>},
+    {"import", add_plainly<add_import_command>},
+    {"report", add_plainly<add_report_command>},
+    {"plot", add_plainly<add_plot_command>},
+    {"reproduce", add_reproduce_command},
+};
 
 std::filesystem::path history() { return db::database_path({}); }
 
@@ -37,6 +34,5 @@ std::filesystem::path history() { return db::database_path({}); }
 }  // namespace sipplab::cli
 
 int main(int argc, char** argv) {
-  return sipplab::cli::run_program(argc, argv,
-                                   {sipplab::cli::add_laboratory_commands, sipplab::cli::history});
+  return sipplab::cli::run_program(argc, argv, {sipplab::cli::kLaboratoryCommands, sipplab::cli::history});
 }

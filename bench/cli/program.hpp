@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <vector>
+#include <span>
 
 #include "bench/cli/commands.hpp"
 
@@ -11,8 +11,8 @@ namespace sipplab::cli {
 
 /// What stands beside planning, validating and generating, which need the planner alone.
 struct Laboratory {
-  /// Adds the commands that need the history or Google Benchmark.
-  std::vector<Command> (*add_commands)(CLI::App& program, const Invocation& invocation) = nullptr;
+  /// The commands that need the history or Google Benchmark.
+  std::span<const NamedCommand> commands = {};
   /// The history's file if no flag names it.
   std::filesystem::path (*history)() = nullptr;
 };

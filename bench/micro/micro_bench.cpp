@@ -188,7 +188,7 @@ void static_distance(benchmark::State& state) {
   for ([[maybe_unused]] auto iteration : state) {
     StaticDistances distances(map, lines, steps, kOctile);
     const MovePair& ends = moves[next++ % kInputs];
-    distances.set_goal(ends.to);
+    distances.set_goal(ends.to, ends.from);
     benchmark::DoNotOptimize(distances.excess_cells(ends.from));
   }
 }

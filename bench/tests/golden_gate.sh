@@ -57,7 +57,7 @@ equal "$(ask 'SELECT count(DISTINCT pairs) > 0, min(pairs) FROM v_gate_cells WHE
 # One instance planned otherwise: found, named, and planned again by the command that is printed.
 # It is changed, not regressed, and fails unless somebody expects it; whether it is worse one instance cannot tell.
 SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10
-says '^INCONCLUSIVE: flowtime \+1.1 % .*, which may be chance; 1 of 8 plannings changed; '
+says '^INCONCLUSIVE: flowtime \+[0-9.]+ % .*, which may be chance; 1 of 8 plannings changed; '
 says '^plan: empty:32x32 agents:32 seed:1 index:1$'
 flowtime=$(sed -n 's/.*base: plan .*flowtime //p' out | head -n 1)
 again=$(sed -n 's/^ *again: //p' out | head -n 1)

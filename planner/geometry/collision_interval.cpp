@@ -177,4 +177,22 @@ bool intrudes(const Displacement& path, Vec2 place, Vec2 pardoned, double reach)
   return inside.begin < excused.begin - kTouchDepthCells || inside.end > excused.end + kTouchDepthCells;
 }
 
+double first_overlap_s(const Move& move, double departure_s, const MovingDisk& obstacle, double reach) {
+  const double begin_s = std::max(departure_s, obstacle.begin_s);
+  const double end_s = std::min(departure_s + move.duration, obstacle.end_s);
+  if (begin_s >= end_s) return kForever;
+  const Vec2 relative = move.velocity - obstacle.velocity;
+  const Vec2 apart = (move.path.from + move.velocity * (begin_s - departure_s)) -
+                     (obstacle.from + obstacle.velocity * (begin_s - obstacle.begin_s));
+  // Of |apart + relative * after|^2 = reach^2 the smaller root.
+  const double near = reach - kTouchDepthCells;
+  const double beyond = squared_norm(apart) - near * near;
+  if (beyond < 0) return begin_s;
+  const double approach = -dot(apart, relative);
+  const double discriminant = approach * approach - squared_norm(relative) * beyond;
+  if (approach <= 0 || discriminant <= 0) return kForever;
+  const double first_s = begin_s + beyond / (approach + std::sqrt(discriminant));
+  return first_s < end_s ? first_s : kForever;
+}
+
 }  // namespace sipplab

@@ -96,4 +96,8 @@ inline Closeness closeness(const Move& move, double departure_s, const MovingDis
   return overlapping ? Closeness::kOverlapping : Closeness::kTouching;
 }
 
+/// When the two first overlap if `move` departs then: absolute time; kForever if they do not. Touching does
+/// not count, up to rounding.
+double first_overlap_s(const Move& move, double departure_s, const MovingDisk& obstacle, double reach);
+
 }  // namespace sipplab

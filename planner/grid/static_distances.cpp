@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/grid/neighbourhood.hpp"
+#include "sipplab/error.hpp"
 #include "sipplab/geometry.hpp"
 
 namespace sipplab {
@@ -14,11 +15,13 @@ namespace {
 /// Cells. Path lengths that differ by less differ only by the rounding of their sums.
 constexpr double kRoundingCells = 1e-9;
 
-/// Cells. The largest radius for which a step to one of eight neighbours is clear if and only if all cells
-/// that it touches are free.
-constexpr double kCellRadius = 0.5;
-
 constexpr int kOctile = 3;
+
+/// All of eight steps. In other neighbourhoods all steps are followed, and any of the bits stands for them.
+constexpr std::uint64_t kAllSteps = 0xff;
+
+/// Units of Length for each cell, and a little less: estimates by rounded lengths stay consistent.
+constexpr double kConsistent = 4194304.0 * (1 - 0x1p-20);
 
 }  // namespace
 
@@ -29,51 +32,92 @@ StaticDistances::StaticDistances(const GridMap& map, const LineOfSight& line_of_
       line_of_sight_(line_of_sight),
       table_(steps),
       k_(k),
-      is_canonical_(k == kOctile && line_of_sight.radius_cells() <= kCellRadius) {
+      is_canonical_(k == kOctile && line_of_sight.radius_cells() <= StepTable::kCellRadius) {
   for (const Cell step : neighbourhood(k)) {
     steps_.push_back({step, step.y * std::ptrdiff_t{map.width()} + step.x,
                       static_cast<Length>(std::ldexp(norm(centre(step)), kCellBits))});
   }
 }
 
-void StaticDistances::set_goal(Cell goal) {
+void StaticDistances::set_goal(Cell goal, Cell towards) {
   goal_ = goal;
+  towards_ = towards;
   spread_ = nullptr;
 }
 
 StaticDistances::Spread& StaticDistances::spread_of_goal() {
   const std::size_t index = map_.index(goal_);
   if (const auto known = spreads_.find(index); known != spreads_.end()) return known->second;
-  constexpr std::size_t kBytes = sizeof(Length) + sizeof(std::uint32_t);
-  const bool is_full = (spreads_.size() + 1) * map_.cell_count() * kBytes > kMostKeptBytes;
+  const bool is_full = (spreads_.size() + 1) * map_.cell_count() * sizeof(Known) > kMostKeptBytes;
   // The new spread takes the memory of a discarded one.
   auto reused = is_full && !spreads_.empty() ? spreads_.extract(spreads_.begin()) : Spreads::node_type{};
   if (reused) reused.key() = index;
   Spread& spread = reused ? spreads_.insert(std::move(reused)).position->second
                           : spreads_.try_emplace(index, arena_).first->second;
-  spread.lengths.assign(map_.cell_count(), kFar);
-  spread.steps.assign(map_.cell_count(), 0);
-  spread.lengths[index] = 0;
-  spread.steps[index] = UINT32_MAX;
-  spread.level = 0;
+  spread.known.assign(map_.cell_count(), Known{});
+  spread.known[index].length = 0;
+  spread.known[index].pending = kAllSteps;
   for (ArenaVector<Cell>& bucket : spread.buckets) bucket.clear();
-  spread.buckets[0].push_back(goal_);
+  spread.towards = towards_;
+  spread.level = estimate(spread, goal_, 0);
+  spread.buckets[spread.level % kBuckets].push_back(goal_);
   spread.open = 1;
   return spread;
 }
 
+std::size_t StaticDistances::estimate(const Spread& spread, Cell cell, Length length) const {
+  const double rest = neighbourhood_distance(cell, spread.towards, k_) * kConsistent;
+  return static_cast<std::size_t>((length + static_cast<Length>(rest)) >> kCellBits);
+}
+
 double StaticDistances::searched_excess_cells(Cell cell) {
   if (spread_ == nullptr) spread_ = &spread_of_goal();
-  const Length& length = spread_->lengths[map_.index(cell)];
-  while (length >> kCellBits >= spread_->level && spread_->open > 0) grow(*spread_);
-  if (length == kFar) return kForever;
+  const Known& known = spread_->known[map_.index(cell)];
+  while ((known.length == kFar || estimate(*spread_, cell, known.length) >= spread_->level) &&
+         spread_->open > 0) {
+    grow(*spread_);
+  }
+  if (known.length == kFar) return kForever;
   const double excess =
-      std::ldexp(static_cast<double>(length), -kCellBits) - neighbourhood_distance(cell, goal_, k_);
+      std::ldexp(static_cast<double>(known.length), -kCellBits) - neighbourhood_distance(cell, goal_, k_);
   return excess > kRoundingCells ? excess : 0;
 }
 
+const StaticDistances::Step& StaticDistances::step_to_goal(Cell cell) const {
+  const std::size_t index = map_.index(cell);
+  const Length length = spread_->known[index].length;
+  const auto leads_on = [&](const Step& step) {
+    const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + step.index_offset);
+    return spread_->known[next].length + step.length == length;
+  };
+  std::uint32_t clear = table_.clear_steps(cell, index);
+  while (clear != 0) {
+    const Step& step = steps_[static_cast<std::size_t>(std::countr_zero(clear))];
+    if (leads_on(step)) return step;
+    clear &= clear - 1;
+  }
+  PLANNER_ASSERT(false);
+  return steps_[0];
+}
+
+Cell StaticDistances::turning_point(Cell cell) {
+  if (searched_excess_cells(cell) == kForever) return cell;
+  Cell seen = cell;
+  Cell at = cell;
+  for (const Step* before = nullptr; at != goal_;) {
+    const Step& step = step_to_goal(at);
+    if (before != nullptr && before != &step) {
+      if (!line_of_sight_.is_clear(cell, at)) break;
+      seen = at;
+    }
+    before = &step;
+    at = {at.x + step.cell.x, at.y + step.cell.y};
+  }
+  return seen;
+}
+
 std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {
-  if (!is_canonical_) return UINT32_MAX;
+  if (!is_canonical_) return static_cast<std::uint32_t>(kAllSteps);
   constexpr std::size_t kStraight = 4;  // each of the other four lies between two of these
   const auto bit = [](std::size_t i) { return std::uint32_t{1} << i; };
   if (step >= kStraight) return bit(step) | bit(step - kStraight) | bit((step + 1) % kStraight);
@@ -88,33 +132,36 @@ std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_b
 
 void StaticDistances::grow(Spread& spread) const {
   ArenaVector<Cell>& bucket = spread.buckets[spread.level % kBuckets];
-  for (const Cell cell : bucket) {
+  while (!bucket.empty()) {
+    const Cell cell = bucket.back();
+    bucket.pop_back();
+    --spread.open;
     const std::size_t index = map_.index(cell);
-    const Length length = spread.lengths[index];
-    if (length >> kCellBits != spread.level) continue;  // found to be nearer and already expanded
+    Known& known = spread.known[index];
     const std::uint32_t clear = table_.clear_steps(cell, index);
-    for (std::uint32_t left = clear & std::exchange(spread.steps[index], 0); left != 0; left &= left - 1) {
+    const auto pending = static_cast<std::uint32_t>(known.pending);
+    known.followed = (known.followed | pending) & kAllSteps;
+    known.pending = 0;
+    for (std::uint32_t left = clear & (is_canonical_ || pending == 0 ? pending : UINT32_MAX); left != 0;
+         left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Step& step = steps_[i];
-      const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + step.index_offset);
-      const Length there = length + step.length;
-      Length& known = spread.lengths[next];
-      if (there > known) continue;
-      std::uint32_t& steps = spread.steps[next];
-      if (there == known) {
-        steps |= followers(i, clear);
-        continue;
+      Known& next =
+          spread.known[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + step.index_offset)];
+      const Length there = known.length + step.length;
+      if (there > next.length) continue;
+      const bool is_queued = next.pending != 0 && there == next.length;
+      if (there < next.length) {
+        next.length = there & kFar;
+        next.pending = next.followed = 0;
       }
-      const bool is_queued = known >> kCellBits == there >> kCellBits;
-      known = there;
-      steps = followers(i, clear);
-      if (is_queued) continue;
-      spread.buckets[(there >> kCellBits) % kBuckets].push_back({cell.x + step.cell.x, cell.y + step.cell.y});
+      next.pending = (next.pending | (followers(i, clear) & ~next.followed)) & kAllSteps;
+      if (is_queued || next.pending == 0) continue;
+      const Cell place{cell.x + step.cell.x, cell.y + step.cell.y};
+      spread.buckets[estimate(spread, place, there) % kBuckets].push_back(place);
       ++spread.open;
     }
   }
-  spread.open -= bucket.size();
-  bucket.clear();
   ++spread.level;
 }
 

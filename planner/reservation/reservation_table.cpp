@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "planner/geometry/collision_interval.hpp"
 #include "sipplab/error.hpp"
@@ -162,24 +163,72 @@ inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) c
   return false;
 }
 
-/// Whether a disk that is met in [from_s, to_s] of absolute time blocks the move.
-bool ReservationTable::is_stopped(Question& question, double from_s, double to_s) const {
-  const auto test = [&](DiskId id) { return stands_in_the_way(question, id); };
-  const Vec2 velocity = question.move.velocity;
-  const Vec2 origin =
-      question.move.path.from + velocity * -question.departure_s;  // its place at time 0, extrapolated
-  const double windows_per_s = slices_.per_second() * static_cast<double>(std::int64_t{1} << question.splits);
+template <class Test, class After>
+inline bool ReservationTable::walk(const Move& move, double departure_s, int splits, NearFilter& filter,
+                                   double from_s, double to_s, Test&& test, After&& after) const {
+  const Vec2 velocity = move.velocity;
+  const Vec2 origin = move.path.from + velocity * -departure_s;  // its place at time 0, extrapolated
+  const double windows_per_s = slices_.per_second() * static_cast<double>(std::int64_t{1} << splits);
   const double window_s = 1 / windows_per_s;
   for (auto window = static_cast<std::int64_t>(from_s * windows_per_s);; ++window) {
     const double next_s = static_cast<double>(window + 1) * window_s;
     const double until_s = std::min(next_s, to_s);
     const std::size_t block = blocks_.at(origin + velocity * ((from_s + until_s) / 2));
-    const bool stopped = slices_.any_near(static_cast<std::size_t>(window >> question.splits), block,
-                                          question.filter, origin, velocity, from_s, until_s, test);
-    if (stopped) question.resume_s = from_s - question.departure_s;
-    if (stopped || !(next_s < to_s)) return stopped;
+    if (slices_.any_near(static_cast<std::size_t>(window >> splits), block, filter, origin, velocity, from_s,
+                         until_s, test) ||
+        after(from_s, until_s)) {
+      return true;
+    }
+    if (!(next_s < to_s)) return false;
     from_s = next_s;
   }
+}
+
+/// Whether a disk that is met in [from_s, to_s] of absolute time blocks the move.
+bool ReservationTable::is_stopped(Question& question, double from_s, double to_s) const {
+  double window_s = from_s;
+  const bool stopped = walk(
+      question.move, question.departure_s, question.splits, question.filter, from_s, to_s,
+      [&](DiskId id) { return stands_in_the_way(question, id); },
+      [&](double begin_s, double) {
+        window_s = begin_s;
+        return false;
+      });
+  if (stopped) question.resume_s = window_s - question.departure_s;
+  return stopped;
+}
+
+int ReservationTable::splits_of(const Move& move) const {
+  int splits = 0;
+  for (double cells = move.speed * slices_.slice_s(); cells > kSliceCells + kFilterMargin; cells /= 2)
+    ++splits;
+  return splits;
+}
+
+ReservationTable::DiskId ReservationTable::blocker(const Move& move, double radius_cells, double departure_s,
+                                                   DiskId likely) const {
+  const auto met_s = [&](const MovingDisk& disk) {
+    return first_overlap_s(move, departure_s, disk, radius_cells + disk.radius);
+  };
+  if (likely != kNoDisk && met_s(disks_[likely]) < kForever) return likely;
+  NearFilter filter(move.velocity * slices_.slice_s(), radius_cells + filter_margin_);
+  DiskId first = kNoDisk;
+  double first_s = kForever;
+  const auto key = [&](DiskId id) {
+    return std::tuple(disks_[id].begin_s, disks_[id].from.x, disks_[id].from.y);
+  };
+  walk(
+      move, departure_s, splits_of(move), filter, departure_s, departure_s + move.duration,
+      [&](DiskId id) {
+        const double overlap_s = met_s(disks_[id]);
+        if (overlap_s < first_s || (overlap_s == first_s && first != kNoDisk && key(id) < key(first))) {
+          first = id;
+          first_s = overlap_s;
+        }
+        return false;
+      },
+      [&](double, double end_s) { return first_s <= end_s; });
+  return first;
 }
 
 double ReservationTable::earliest_departure(const Move& move, double radius_cells, double from_s,
@@ -188,13 +237,14 @@ double ReservationTable::earliest_departure(const Move& move, double radius_cell
   // Unsafe departures may reach this much beyond the time that is spent near a disk.
   const double slack_s = kNearMissCells * move.seconds_per_cell;
   const double margin_s = slack_s < slices_.margin_s() ? 0 : slack_s;  // entries are that much longer already
-  int splits = 0;
-  for (double cells = move.speed * slices_.slice_s(); cells > kSliceCells + kFilterMargin; cells /= 2)
-    ++splits;
-  Question question{move,   radius_cells,
-                    splits, NearFilter(move.velocity * slices_.slice_s(), radius_cells + filter_margin_),
-                    from_s, until_s,
-                    from_s, likely_blocker ? *likely_blocker : kNoDisk};
+  Question question{move,
+                    radius_cells,
+                    splits_of(move),
+                    NearFilter(move.velocity * slices_.slice_s(), radius_cells + filter_margin_),
+                    from_s,
+                    until_s,
+                    from_s,
+                    likely_blocker ? *likely_blocker : kNoDisk};
   if (question.blocker != kNoDisk) stands_in_the_way(question, question.blocker);
   // Each jump ends where an unsafe interval ends, so no safe departure is missed.
   bool stopped = question.later_s > from_s;

@@ -52,6 +52,8 @@ class ReservationTable final : public Reservations {
   /// Removes a disk; its id may be reused from now on.
   /// REQUIRES: added, not removed yet. O(cells near its path * disks there).
   void remove(DiskId id);
+  /// REQUIRES: added, not removed yet.
+  const MovingDisk& disk(DiskId id) const { return disks_[id]; }
   /// Adds a trajectory and the rest at its end for ever. Returns their ids, for remove().
   std::vector<DiskId> add(const Trajectory& trajectory, double radius_cells);
 
@@ -78,6 +80,11 @@ class ReservationTable final : public Reservations {
   double earliest_departure(const Move& move, double radius_cells, double from_s, double until_s,
                             DiskId* likely_blocker = nullptr) const;
 
+  /// A disk that the move overlaps if it departs then: `likely` if it is one, else the first that is met;
+  /// kNoDisk if there is none. Depends on the disks and on `likely` alone, not on ids or the order in which
+  /// disks were added. Time margins do not count.
+  DiskId blocker(const Move& move, double radius_cells, double departure_s, DiskId likely) const;
+
  private:
   struct Keepout {
     Vec2 place;
@@ -91,6 +98,13 @@ class ReservationTable final : public Reservations {
                         double departure_s) const;
   bool stands_in_the_way(Question& question, DiskId id) const;
   bool is_stopped(Question& question, double from_s, double to_s) const;
+  int splits_of(const Move& move) const;
+  /// Calls test(disk) for disks that the move, departing then, may come near in [from_s, to_s] of absolute
+  /// time, and after(begin_s, end_s) after each window of time that it looks into, until one returns true.
+  /// Returns whether one did.
+  template <class Test, class After>
+  bool walk(const Move& move, double departure_s, int splits, NearFilter& filter, double from_s, double to_s,
+            Test&& test, After&& after) const;
 
   const GridMap& map_;
   Askers askers_;

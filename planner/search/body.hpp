@@ -41,7 +41,8 @@ class Body {
   }
 
   /// See StaticDistances.
-  void set_goal(Cell goal) { distances_.set_goal(goal); }
+  void set_goal(Cell goal, Cell towards) { distances_.set_goal(goal, towards); }
+  Cell turning_point(Cell cell) { return distances_.turning_point(cell); }
 
   /// What the map's obstacles add to the robot's path from the cell to its goal, in cells. Straight distance
   /// plus the excess never exceeds the shortest path by steps. REQUIRES: options.static_distances.

@@ -24,10 +24,13 @@ class OpenList {
     double arrival_s;  ///< g when queued; for a lazy successor a lower bound on it
     NodeId node;
     NodeId from;         ///< for a lazy successor the node it is reached from, else kNoNode
-    NodeId parent;       ///< for a lazy successor the node to try a straight move from, or kNoNode
+    NodeId parent;       ///< for a lazy successor the node to try a straight move from, or kNoNode; `from`
+                         ///< for a leg
     std::uint32_t link;  ///< in a bucket the entry before it, on the heap its sequence number
 
     bool is_lazy() const { return from != kNoNode; }
+    /// Reached by a straight move that is no step.
+    bool is_leg() const { return is_lazy() && from == parent; }
   };
 
   bool empty() const { return size_ == 0; }

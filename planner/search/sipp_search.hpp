@@ -71,7 +71,7 @@ class Sipp final : public SingleAgentPlanner {
     double travel_s;
     double soonest_s;
     double latest_s;
-    double step_soonest_s = 0;  ///< for a move from the parent of `from`: by the step from `from`
+    double step_soonest_s = kForever;  ///< for a move from the parent of `from`: by the step from `from`
   };
   /// Which of two moves to keep if they arrive together.
   enum class Tie { kKeep, kReplace };
@@ -114,7 +114,7 @@ class Sipp final : public SingleAgentPlanner {
   void expand(NodeId id);
   Edge edge(NodeId from, Cell to, double cells) const;
   /// Queues the nodes of a cell at which the move may arrive earlier than known. With a parent they may be
-  /// reached straight from it, or by the step from edge.from.
+  /// reached straight from it, or by the step from edge.from; if the two are the same, the move is a leg.
   void offer(const Edge& edge, NodeId parent, NodeId target, NodeId last);
   /// Whether an arrival at `soonest_s` or later may be in the interval and earlier than the known one.
   bool may_gain(NodeId id, Heading heading, double soonest_s) const {
@@ -135,8 +135,13 @@ class Sipp final : public SingleAgentPlanner {
   NodeId arrive(NodeId from, NodeId id, double known_s, Tie tie, ReservationTable::DiskId* likely_blocker,
                 double& departure_s);
   /// The goal shot: a straight move from the node to the goal, if it is safe to depart at once, or just in
-  /// time for the goal to be free.
-  NodeId shoot(NodeId id);
+  /// time for the goal to be free. Else legs are offered that lead around what is in the way; around the map
+  /// only after a leg and at the start, since after a step much the same is in sight as before it.
+  NodeId shoot(NodeId id, bool after_leg);
+  /// Offers legs that pass the disk which blocks the goal shot, once for each disk.
+  void turn_aside(NodeId id, const Move& move, double departure_s);
+  /// Offers a cell for a straight move, if it is in line of sight. REQUIRES: it is legal.
+  void offer_leg(NodeId from, Cell to);
   /// The result once the goal's node is reached.
   Trajectory finish(NodeId goal);
   /// Finds the earliest straight move between two stops, in the safe interval of each, with no departure
@@ -180,6 +185,8 @@ class Sipp final : public SingleAgentPlanner {
   ReservationTable::DiskId shot_blocker_ = ReservationTable::kNoDisk;  ///< of the last goal shot
   ReservationTable::DiskId edge_blocker_ = ReservationTable::kNoDisk;  ///< of the last straight move
   OpenList open_;
+  int disks_passed_ = 0;                  ///< disks that legs were offered for
+  std::vector<std::uint32_t> passed_in_;  ///< by disk: number of the last search in which that was so
 };
 
 using SippSearch = Sipp<PlainMotion>;

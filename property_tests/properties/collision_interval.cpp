@@ -118,6 +118,42 @@ bool agrees_with_samples(const Displacement& path, Vec2 place, Vec2 pardoned, do
   return answer;
 }
 
+/// At the time of the first overlap the two are as near as their bodies allow, and never nearer before.
+void begins_with_a_contact(const std::vector<Encounter>& encounters) {
+  constexpr double kRoundingCells = 1e-6;
+  constexpr int kSamples = 10;
+  int met = 0;
+  for (const Encounter& encounter : encounters) {
+    RC_LOG() << encounter << std::endl;
+    const UnsafeTimes question = departures_of(encounter);
+    const Move move = encounter.move();
+    const MovingDisk disk = encounter.obstacle();
+    for (const double departure_s : times_to_check(question)) {
+      const double first_s = first_overlap_s(move, departure_s, disk, encounter.reach());
+      const double begin_s = std::max(departure_s, disk.begin_s);
+      const double end_s = std::min(departure_s + move.duration, disk.end_s);
+      if (first_s == kForever) {
+        if (end_s - begin_s > kRoundingCells) {
+          RC_ASSERT(question.distance(departure_s) > encounter.reach() - kRoundingCells);
+        }
+        continue;
+      }
+      ++met;
+      RC_ASSERT(first_s >= begin_s && first_s <= end_s);
+      const auto apart = [&](double time_s) {
+        return norm(move.path.from + move.velocity * (time_s - departure_s) - disk.from -
+                    disk.velocity * (time_s - disk.begin_s));
+      };
+      RC_ASSERT(apart(first_s) < encounter.reach() + kRoundingCells);
+      for (int i = 0; i < kSamples; ++i) {
+        const double before_s = begin_s + (first_s - begin_s) * i / kSamples;
+        if (before_s < first_s) RC_ASSERT(apart(before_s) > encounter.reach() - kRoundingCells);
+      }
+    }
+  }
+  RC_CLASSIFY(met > 0, "some meet");
+}
+
 const PropertyRoom room("collision_interval", [] {
   bool passed = true;
 
@@ -130,6 +166,9 @@ const PropertyRoom room("collision_interval", [] {
   passed &= property(
       "closeness (1)(2)(3): misses no unsafe departure, leaves out those far apart, is sure of overlaps",
       [] { check_quick_test(*any_encounters()); });
+
+  passed &= property("first_overlap_s: a contact, and none before",
+                     [] { begins_with_a_contact(*any_encounters()); });
 
   passed &= property("intrudes: agrees with samples of the path", [] {
     constexpr int kPaths = 10;

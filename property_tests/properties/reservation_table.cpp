@@ -307,6 +307,33 @@ std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query
   return {found, given_up};
 }
 
+/// Of all disks in the way at this departure the one that is met first, or one that is likely to be. Returns
+/// how many moves are blocked.
+int is_the_first_in_the_way(Filled& filled, const std::vector<Query>& queries) {
+  int blocked = 0;
+  auto likely = ReservationTable::kNoDisk;
+  for (const Query& query : posed(queries, filled)) {
+    RC_LOG() << query << std::endl;
+    const Move move = query.move();
+    double first_s = kForever;
+    for (const MovingDisk& disk : filled.twin().disks) {
+      first_s = std::min(first_s, first_overlap_s(move, query.from_s, disk, query.radius + disk.radius));
+    }
+    const auto met_s = [&](ReservationTable::DiskId id) {
+      if (id == ReservationTable::kNoDisk) return kForever;
+      const MovingDisk& disk = filled.table().disk(id);
+      return first_overlap_s(move, query.from_s, disk, query.radius + disk.radius);
+    };
+    const auto first = filled.table().blocker(move, query.radius, query.from_s, ReservationTable::kNoDisk);
+    RC_ASSERT(met_s(first) == first_s);
+    const auto found = filled.table().blocker(move, query.radius, query.from_s, likely);
+    RC_ASSERT(found == (met_s(likely) < kForever ? likely : first));
+    if (first != ReservationTable::kNoDisk) likely = first;
+    blocked += first_s < kForever;
+  }
+  return blocked;
+}
+
 const PropertyRoom room("reservation_table", [] {
   bool passed = true;
 
@@ -323,6 +350,15 @@ const PropertyRoom room("reservation_table", [] {
       delayed += agrees_with_plain_twin(filled, *any_queries());
     }
     RC_CLASSIFY(delayed >= 10, "ten or more have to wait");
+  });
+
+  passed &= property("blocker: of all disks in the way the one that is met first", [] {
+    int blocked = 0;
+    for (int i = 0; i < kTrafficsPerCase; ++i) {
+      Filled filled(*any_traffic());
+      blocked += is_the_first_in_the_way(filled, *any_queries());
+    }
+    RC_CLASSIFY(blocked >= 10, "ten or more are blocked");
   });
 
   passed &= property("earliest_departure: what comes within the inflated time counts, far away as it is", [] {
