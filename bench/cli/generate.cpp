@@ -149,7 +149,11 @@ int run_generate(const GenerateArguments& arguments) {
 Command add_generate_command(CLI::App& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand("generate", "make seeded instances");
-  command->add_option("--map", arguments->map, "empty:WxH, random:WxH:DENSITY, warehouse, or a map file")
+  command
+      ->add_option(
+          "--map", arguments->map,
+          "empty:WxH, random:WxH:DENSITY, caves:WxH:DENSITY, rooms:WxH:GAP, maze:WxH:GAP, warehouse, "
+          "shelves:COLUMNSxROWS:LENGTHxWIDTH:GAP, or a map file")
       ->capture_default_str()
       ->type_name("MAP");
   command->add_option("--agents", arguments->agents, "robots in each instance")

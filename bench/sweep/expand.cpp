@@ -1,5 +1,8 @@
 #include "bench/sweep/expand.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -242,17 +245,12 @@ std::optional<std::string> find_idle_flag(const SweepRequest& request) {
     }
   }
   if (!suite.fitting_maps) return std::nullopt;
+  std::set<std::size_t> known;
+  for (const SuiteBlock& block : suite.blocks) known.insert(block.robots.begin(), block.robots.end());
   for (const std::size_t robots : request.robots) {
-    std::string known;
-    bool found = false;
-    for (const SuiteBlock& block : suite.blocks) {
-      found = found || block.robots.front() == robots;
-      known += (known.empty() ? "" : ", ") + std::to_string(block.robots.front());
-    }
-    if (!found) {
-      return "--robots " + std::to_string(robots) + ": suite " + suite.name + " has maps for " + known +
-             ", expected some of these";
-    }
+    if (known.count(robots) != 0) continue;
+    return fmt::format("--robots {}: suite {} has maps for {}, expected some of these", robots, suite.name,
+                       fmt::join(known, ", "));
   }
   return std::nullopt;
 }

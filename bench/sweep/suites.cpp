@@ -49,6 +49,8 @@ constexpr double kGenerousLimitS = 20;
 constexpr double kQuickLimitS = 10;
 /// Seconds: the first plan of a crowded map comes within one, of the largest within a minute.
 constexpr double kDenseLimitS = 60;
+/// Seconds: the iterations of suite crowd end before, but for the largest map.
+constexpr double kCrowdLimitS = 60;
 /// Seconds: far more than any instance of suite scale takes on a machine of today.
 constexpr double kScaleLimitS = 3600;
 /// Tries of an adversarial case: as many as performance fuzzing allowed.
@@ -62,6 +64,8 @@ std::vector<Suite> make_suites() {
   const std::vector<PlannerOptions> complete = {planner("method complete")};
   // 2000 iterations are some seconds for each instance, and the greater part of what half a minute gains.
   const std::vector<PlannerOptions> best = {planner("connectedness 3 best yes improve 2000i")};
+  // As many are a few seconds for 1,000 robots.
+  const std::vector<PlannerOptions> crowd = {planner("best yes improve 2000i")};
   const std::vector<PlannerOptions> turning = {planner("connectedness 3"),
                                                planner("connectedness 3 turns yes"),
                                                planner("any-angle no connectedness 3 turns yes")};
@@ -162,6 +166,23 @@ std::vector<Suite> make_suites() {
        .instances = 10,
        .blocks = {{kWarehouse, {96, 128, 160, 192}, over(by_rule), best},
                   {kEmpty, {128, 192, 256}, over(by_rule), best}}},
+      // Where a plan is easy to have and a short one is not. The maps are like MovingAI's random-32-32-20,
+      // room-32-32-4, maze-32-32-4, den312d, empty-32-32, warehouse-10-20-10-2-1 and warehouse-20-40-10-2-2.
+      // Counted in iterations: see above. The largest: --benchmark_filter=-agents:10000 leaves it out.
+      {.name = "crowd",
+       .purpose =
+           "--best for 192 to 1,000 robots on seven kinds of maps, minutes; and for 10,000, more of them",
+       .instances = 3,
+       .time_limit_s = kCrowdLimitS,
+       .blocks = {{kWarehouse, {192, 224, 256}, over("ssi 5"), crowd},
+                  {"random:32x32:0.2", {200, 400}, over("ssi 5"), crowd},
+                  {"rooms:32x32:3", {200, 300}, over("ssi 5"), crowd},
+                  {"maze:32x32:4", {200, 300}, over("ssi 5"), crowd},
+                  {"caves:65x81:0.5", {200, 400, 800}, over("ssi 5"), crowd},
+                  {kEmpty, {200, 400, 800}, over("ssi 5"), crowd},
+                  {"shelves:10x20:10x2:1", {200, 400, 1000}, over("ssi 5"), crowd},
+                  {"shelves:20x40:10x2:2", {10000}, over("ssi 5"), crowd}},
+       .fitting_maps = true},
       // For other planners: one setting, so that each plans every instance once.
       {.name = "solvers",
        .purpose = "rising numbers of robots on both maps of the paper, for planners side by side",

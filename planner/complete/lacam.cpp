@@ -22,6 +22,10 @@ constexpr double kCrowdedShare = 0.9;
 /// way, and ways around traffic that is over keep them from getting past each other.
 constexpr std::uint64_t kGuidedLengths = 2;
 
+/// Steps in which no more robots got to their goals than ever before, after which rows of pushes are those of
+/// [PIBT] for the rest of the search.
+constexpr std::uint64_t kPatienceSteps = 20;
+
 /// Constraints on one step out of a configuration: this one and those of all ancestors in
 /// the configuration's tree of constraints. [LC22], section 3.
 struct ConstraintNode {
@@ -150,6 +154,7 @@ class Search {
       ++steps_tried_;
       sort_robots(id);
       pibt_.follow(steps_tried_ <= guided_steps_ ? guide_ : nullptr);
+      pibt_.push_cheaply(limits.push_cheaply && makes_progress(nodes_[id].cells));
       Node& node = nodes_[id];
       const auto entry = static_cast<std::uint32_t>(node.next_constraint++);
       const StepOutcome outcome = pibt_.make_step(node.cells, order_, constraints_of(node, entry), next);
@@ -163,6 +168,18 @@ class Search {
       }
     }
     return LacamStatus::kUnsolvable;
+  }
+
+  /// Whether it ever got more robots to their goals within the last steps.
+  bool makes_progress(const Configuration& cells) {
+    std::size_t arrived = 0;
+    for (RobotId robot = 0; robot < cells.size(); ++robot) arrived += cells[robot] == goals_[robot];
+    is_stuck_ = is_stuck_ || steps_tried_ > best_at_ + kPatienceSteps;
+    if (arrived > most_arrived_ || best_at_ == 0) {
+      most_arrived_ = arrived;
+      best_at_ = steps_tried_;
+    }
+    return !is_stuck_;
   }
 
   bool is_at_limit(const LacamLimits& limits) const {
@@ -247,6 +264,9 @@ class Search {
   std::unordered_multimap<std::uint64_t, NodeId> ids_;  ///< by hash of the configuration
   std::vector<NodeId> stack_;
   std::uint64_t steps_tried_ = 0;
+  std::size_t most_arrived_ = 0;
+  std::uint64_t best_at_ = 0;  ///< steps tried when so many had arrived
+  bool is_stuck_ = false;
   std::size_t memory_bytes_ = 0;
 };
 
@@ -280,8 +300,11 @@ LacamResult Lacam::search(std::uint64_t seed, const LacamLimits& limits) {
     LacamLimits attempt = limits;
     attempt.max_steps = std::min(left, patience);
     const std::uint64_t tried_before = result.steps_tried;
-    // Every other search goes by plain distances alone.
-    GuidedDistances* const guide = guide_ && search % 2 == 0 ? &*guide_ : nullptr;
+    // By turns: with cheap rows of pushes, with those of [PIBT], and by plain distances, too.
+    const std::size_t kinds = limits.push_cheaply ? 3 : 2;
+    const std::size_t kind = search % kinds;
+    attempt.push_cheaply = limits.push_cheaply && kind == 0;
+    GuidedDistances* const guide = guide_ && kind + 1 < kinds ? &*guide_ : nullptr;
     result = Search(grid_, starts_, goals_, Pibt(grid_, distances_, !is_crowded(), seeds.next()), order_,
                     guide, kGuidedLengths * longest_)
                  .run(attempt);

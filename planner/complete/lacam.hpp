@@ -21,10 +21,13 @@ struct LacamLimits {
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: ends the search like the deadline
   /// Steps that a first search may take before another one with other ties begins: as multiples of the
   /// longest path, and at least so many. Times of search have a long tail: on the empty map of 32 x 32 cells
-  /// with 950 robots half of the searches take four times the longest path, some a hundred times. Each next
+  /// with 950 robots searches take four to ten times the longest path, some a hundred times. Each next
   /// search has twice as many, which keeps the search complete.
-  std::uint64_t patience_lengths = 8;
+  std::uint64_t patience_lengths = 12;
   std::uint64_t least_patience_steps = 256;
+  /// Whether rows of pushes are the cheapest ones as long as that gets robots home: shorter plans where it is
+  /// crowded.
+  bool push_cheaply = true;
 };
 
 enum class LacamStatus {

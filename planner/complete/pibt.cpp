@@ -1,9 +1,31 @@
 #include "planner/complete/pibt.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <functional>
 #include <utility>
 
 namespace sipplab {
+namespace {
+
+/// What a move costs in a row of pushes. Of the first robot: to stay, to go away from its goal, and what a
+/// quarter of a step that it gains is worth; others go before it only if they are pushed, so that these are
+/// high.
+constexpr std::uint32_t kStayCost = 80;
+constexpr std::uint32_t kAwayCost = 120;
+constexpr std::uint32_t kGainValue = 4;
+constexpr std::uint32_t kMostGainValue = kGainValue * kDearestMoveCost;
+/// Of each other one: to move at all, away from its goal, from its goal itself; of every robot: to follow
+/// around a corner.
+constexpr std::uint32_t kPushedCost = 1;
+constexpr std::uint32_t kPushedAwayCost = 2;
+constexpr std::uint32_t kPushedHomeCost = 1;
+constexpr std::uint32_t kTurnCost = 2;
+/// Ties, and choices that are nearly ties, are left to chance, or robots push each other back and forth.
+constexpr std::uint64_t kChanceCosts = 4;
+constexpr int kChanceBits = 2;
+
+}  // namespace
 
 Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed)
     : grid_(grid),
@@ -11,7 +33,9 @@ Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cell
       prefer_free_cells_(prefer_free_cells),
       random_(seed),
       robot_at_(grid.size(), kNoRobot),
-      taken_by_(grid.size(), kNoRobot) {}
+      taken_by_(grid.size(), kNoRobot),
+      reached_(grid.size()),
+      searched_(grid.size(), 0) {}
 
 StepOutcome Pibt::make_step(const Configuration& now, std::span<const RobotId> order,
                             std::span<const StepConstraint> constraints, Configuration& next) {
@@ -22,7 +46,8 @@ StepOutcome Pibt::make_step(const Configuration& now, std::span<const RobotId> o
 
   StepOutcome outcome = assign_all(constraints) ? StepOutcome::kFound : StepOutcome::kContradiction;
   for (std::size_t i = 0; outcome == StepOutcome::kFound && i < order.size(); ++i) {
-    if (!is_assigned(order[i]) && !move(order[i])) outcome = StepOutcome::kNotFound;
+    if (is_assigned(order[i])) continue;
+    if (!(pushes_cheaply_ ? push(order[i]) : move(order[i]))) outcome = StepOutcome::kNotFound;
   }
 
   for (RobotId robot = 0; robot < now.size(); ++robot) {
@@ -62,6 +87,77 @@ bool Pibt::move(RobotId root) {
     return true;
   }
   return false;
+}
+
+/// The cheapest row of pushes (Dijkstra 1959): the robot goes to a neighbour, who is there to the next cell,
+/// and so on to a cell that is free, or that a robot leaves.
+bool Pibt::push(RobotId root) {
+  choices_.clear();
+  if (begin_choice(root).swap_partner != kNoRobot) return move(root);
+  const CellId here = (*now_)[root];
+  std::uint64_t chance = random_.next();
+  const auto draw = [&chance] {
+    chance = std::rotr(chance, kChanceBits);
+    return static_cast<std::uint32_t>(chance % kChanceCosts);
+  };
+  ++search_;
+  ends_.clear();
+  for (const CellId cell : grid_.neighbours(here)) {
+    const int gained = gain(root, here, cell);
+    const std::uint32_t cost = gained > 0 ? kMostGainValue - kGainValue * static_cast<std::uint32_t>(gained)
+                                          : kMostGainValue + kAwayCost;
+    extend_row(here, kNoCell, here, cell, cost + draw());
+  }
+  if (taken_by_[here] == kNoRobot) add_end({kMostGainValue + kStayCost, here, here});
+  while (!ends_.empty()) {
+    std::pop_heap(ends_.begin(), ends_.end(), std::greater<>());
+    const RowEnd end = ends_.back();
+    ends_.pop_back();
+    if (end.cell == here) {
+      assign(root, here);
+      return true;
+    }
+    if (reached_[end.cell].cost < end.cost) continue;  // by a cheaper row since
+    const RobotId robot = robot_at_[end.cell];
+    if (robot == kNoRobot || is_assigned(robot)) {
+      for (CellId to = end.cell; to != here; to = reached_[to].from) assign(robot_at_[reached_[to].from], to);
+      return true;
+    }
+    const std::uint32_t leaving =
+        end.cost + kPushedCost + (end.cell == distances_.goal(robot) ? kPushedHomeCost : 0);
+    for (const CellId cell : grid_.neighbours(end.cell)) {
+      const std::uint32_t away = gain(robot, end.cell, cell) > 0 ? 0 : kPushedAwayCost;
+      extend_row(here, end.from, end.cell, cell, leaving + away + draw());
+    }
+  }
+  return false;
+}
+
+/// The robot at `from`, which came from `before`, may go `to` the next cell; `root_cell` is where the row
+/// begins.
+void Pibt::extend_row(CellId root_cell, CellId before, CellId from, CellId to, std::uint32_t cost) {
+  if (to == root_cell || taken_by_[to] != kNoRobot) return;
+  if (before != kNoCell && is_turn(before, from, to)) cost += kTurnCost;
+  if (const RobotId other = robot_at_[to]; other != kNoRobot && is_assigned(other)) {
+    if (closes_ring(root_cell, to)) return;
+    if (is_turn(from, to, (*next_)[other])) cost += kTurnCost;
+  }
+  if (searched_[to] == search_ && reached_[to].cost <= cost) return;
+  searched_[to] = search_;
+  reached_[to] = {cost, to, from};
+  add_end(reached_[to]);
+}
+
+void Pibt::add_end(const RowEnd& end) {
+  ends_.push_back(end);
+  std::push_heap(ends_.begin(), ends_.end(), std::greater<>());
+}
+
+bool Pibt::is_turn(CellId a, CellId b, CellId c) const {
+  const Cell one = grid_.cell(a);
+  const Cell middle = grid_.cell(b);
+  const Cell other = grid_.cell(c);
+  return one.x + other.x != 2 * middle.x || one.y + other.y != 2 * middle.y;
 }
 
 Pibt::Choice Pibt::begin_choice(RobotId robot) {

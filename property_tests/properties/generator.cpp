@@ -40,6 +40,16 @@ MapSpec any_random_map() {
   return spec;
 }
 
+/// Rooms or a maze.
+MapSpec any_walled_map() {
+  MapSpec spec;
+  spec.kind = *rc::gen::element(MapSpec::Kind::kRooms, MapSpec::Kind::kMaze);
+  spec.width = *rc::gen::inRange(1, 30);
+  spec.height = *rc::gen::inRange(1, 30);
+  spec.gap_cells = *rc::gen::inRange(1, 6);
+  return spec;
+}
+
 /// The cells of the largest part of the map that four neighbours join; of equally large ones the one that
 /// comes first, row by row.
 std::set<Cell> largest_part(const GridMap& map) {
@@ -98,11 +108,108 @@ const PropertyRoom room("generator", [] {
   });
 
   passed &= property("the share of blocked cells is what was asked for, rounded", [] {
-    const MapSpec spec = any_random_map();
+    MapSpec spec = any_random_map();
+    spec.kind = *rc::gen::element(MapSpec::Kind::kRandom, MapSpec::Kind::kCaves);
     const auto map = make_map(spec, *rc::gen::arbitrary<std::uint64_t>(), 0);
     RC_ASSERT(static_cast<bool>(map));
     const double wanted = spec.density * static_cast<double>(map->cell_count());
     RC_ASSERT(std::abs(static_cast<double>(map->blocked_count()) - wanted) <= 0.5 + 1e-9);
+  });
+
+  passed &= property("what is blocked in caves lies together", [] {
+    MapSpec spec = any_random_map();
+    spec.width = spec.height = 40;
+    spec.density = *rc::gen::inRange(20, 60) / 100.0;
+    const auto like_before = [&](MapSpec::Kind kind) {
+      spec.kind = kind;
+      const auto map = make_map(spec, *rc::gen::arbitrary<std::uint64_t>());
+      int equal = 0;
+      for (std::size_t i = 0; i < map->cell_count(); ++i) {
+        const Cell cell = map->cell(i);
+        equal += cell.x > 0 && map->is_blocked(cell) == map->is_blocked({cell.x - 1, cell.y});
+        equal += cell.y > 0 && map->is_blocked(cell) == map->is_blocked({cell.x, cell.y - 1});
+      }
+      return equal / (2.0 * 39 * 40);
+    };
+    // Neighbours at random are of the same kind in half to two thirds of the cases.
+    RC_ASSERT(like_before(MapSpec::Kind::kCaves) > 0.8);
+    RC_ASSERT(like_before(MapSpec::Kind::kRandom) < 0.75);
+  });
+
+  passed &= property("walls are as far apart as was asked for, and every free cell can be reached", [] {
+    const MapSpec spec = any_walled_map();
+    const auto map = make_map(spec, *rc::gen::arbitrary<std::uint64_t>(), 0);
+    RC_ASSERT(static_cast<bool>(map));
+    RC_ASSERT(largest_part(*map).size() == map->cell_count() - map->blocked_count());
+    const std::int32_t period = spec.gap_cells + 1;
+    const auto count = [&](std::int32_t cells) { return (cells + period - 1) / period; };
+    const std::size_t squares =
+        static_cast<std::size_t>(count(spec.width)) * static_cast<std::size_t>(count(spec.height));
+    std::size_t openings = 0;  // ways from one square to the next
+    for (std::size_t i = 0; i < map->cell_count(); ++i) {
+      const Cell cell = map->cell(i);
+      const bool in_upright = cell.x % period == spec.gap_cells;
+      const bool in_level = cell.y % period == spec.gap_cells;
+      if (map->is_blocked(cell)) {
+        RC_ASSERT(in_upright || in_level);
+      } else if (in_upright || in_level) {
+        RC_ASSERT(!(in_upright && in_level));
+        // The first free cell of its wall.
+        const Cell before = in_upright ? Cell{cell.x, cell.y - 1} : Cell{cell.x - 1, cell.y};
+        openings += !map->contains(before) || map->is_blocked(before);
+        if (spec.kind == MapSpec::Kind::kRooms) {
+          RC_ASSERT((!map->contains(before) || map->is_blocked(before)));
+        } else if (!map->contains(before) || map->is_blocked(before)) {
+          const std::int32_t end = in_upright ? spec.height : spec.width;
+          std::int32_t at = in_upright ? cell.y : cell.x;
+          RC_ASSERT(at % period == 0);
+          for (; at < end && at % period != spec.gap_cells; ++at) {
+            RC_ASSERT(!map->is_blocked(in_upright ? Cell{cell.x, at} : Cell{at, cell.y}));
+          }
+        }
+      }
+    }
+    RC_CLASSIFY(squares > 3, "four squares or more");
+    RC_CLASSIFY(openings > squares - 1, "more ways than one");
+    RC_ASSERT(openings >= squares - 1);
+    // A maze has one way from each square to each other one.
+    if (spec.kind == MapSpec::Kind::kMaze) RC_ASSERT(openings == squares - 1);
+  });
+
+  passed &= property("shelves are as many and as large as was asked for, with aisles around each", [] {
+    const auto any_side = [] { return *rc::gen::inRange(1, 6); };
+    const std::int32_t columns = any_side(), rows = any_side(), length = any_side(), width = any_side(),
+                       gap = any_side();
+    const auto spec =
+        parse_map_spec("shelves:" + std::to_string(columns) + "x" + std::to_string(rows) + ":" +
+                       std::to_string(length) + "x" + std::to_string(width) + ":" + std::to_string(gap));
+    RC_ASSERT(spec && spec->kind == MapSpec::Kind::kShelves);
+    const GridMap map = *make_map(*spec, 1);
+    // The wall around it, and what is blocked inside, in rows that end where the next one begins.
+    const std::size_t around = 2 * static_cast<std::size_t>(map.width() + map.height()) - 4;
+    const auto shelves = static_cast<std::size_t>(columns * rows * length * width);
+    RC_ASSERT(map.blocked_count() == around + shelves);
+    RC_ASSERT(map.width() == 2 + 2 * (columns * length / 4) + columns * length + (columns - 1) * gap);
+    RC_ASSERT(map.height() == 2 + rows * width + (rows + 1) * gap);
+    int corners = 0;
+    for (std::int32_t y = 1; y + 1 < map.height(); ++y) {
+      for (std::int32_t x = 1; x + 1 < map.width(); ++x) {
+        RC_ASSERT(map.is_blocked({x, y}) == map.is_blocked({map.width() - 1 - x, y}));
+        RC_ASSERT(map.is_blocked({x, y}) == map.is_blocked({x, map.height() - 1 - y}));
+        if (!map.is_blocked({x, y}) || (x > 1 && map.is_blocked({x - 1, y})) ||
+            (y > 1 && map.is_blocked({x, y - 1}))) {
+          continue;
+        }
+        ++corners;  // upper left
+        for (std::int32_t dx = 0; dx < length; ++dx) {
+          for (std::int32_t dy = 0; dy < width; ++dy) RC_ASSERT(map.is_blocked({x + dx, y + dy}));
+        }
+      }
+    }
+    // A quarter of fewer shelves is no space beside them.
+    if (columns * length < 4) return;
+    RC_ASSERT(corners == columns * rows);
+    RC_ASSERT(largest_part(map).size() == map.cell_count() - map.blocked_count());
   });
 
   passed &= property("the same seed and index give the same instance, another index another", [] {
@@ -110,9 +217,12 @@ const PropertyRoom room("generator", [] {
     options.radii_cells = {0.5};
     options.agents = 20;
     MapSpec spec = any_random_map();
+    spec.kind = *rc::gen::element(MapSpec::Kind::kRandom, MapSpec::Kind::kCaves, MapSpec::Kind::kRooms,
+                                  MapSpec::Kind::kMaze);
     spec.width = 30;
     spec.height = 30;
     spec.density = 0.2;
+    spec.gap_cells = *rc::gen::inRange(1, 8);
     const auto instance = generate_instance(spec, options);
     const auto again = generate_instance(spec, options);
     RC_ASSERT(instance && again && *instance == *again);

@@ -51,7 +51,9 @@ TEST(GeneratorInstances, MapSpecs) {
   EXPECT_EQ(spec_of("random:8x8:0.25").density, 0.25);
   EXPECT_EQ(spec_of("some/where.map").path, "some/where.map");
   EXPECT_EQ(make_map(spec_of("random:10x10:0.25"), 3)->blocked_count(), 25u);
-  const std::string expected = ", expected empty:WxH, random:WxH:DENSITY, warehouse or the path of a map";
+  const std::string expected =
+      ", expected empty:WxH, random:WxH:DENSITY, caves:WxH:DENSITY, rooms:WxH:GAP, maze:WxH:GAP, warehouse, "
+      "shelves:COLUMNSxROWS:LENGTHxWIDTH:GAP or the path of a map";
   EXPECT_EQ(spec_error(""), "map '': nothing" + expected);
   EXPECT_EQ(spec_error("empty:32"), "map 'empty:32': size '32'" + expected);
   EXPECT_EQ(spec_error("empty:3.5x2"), "map 'empty:3.5x2': size '3.5x2'" + expected);
@@ -59,6 +61,14 @@ TEST(GeneratorInstances, MapSpecs) {
   EXPECT_EQ(spec_error("random:8x8:1"), "map 'random:8x8:1': density not within 0 <= density < 1" + expected);
   EXPECT_EQ(spec_error("random:8x8:nan"),
             "map 'random:8x8:nan': density not within 0 <= density < 1" + expected);
+  EXPECT_EQ(spec_error("rooms:8x8"), "map 'rooms:8x8': no gap" + expected);
+  EXPECT_EQ(spec_error("maze:8x8:0"), "map 'maze:8x8:0': gap not within 1 to 8192" + expected);
+  EXPECT_EQ(spec_error("shelves:10x20:1"), "map 'shelves:10x20:1': no size of shelves" + expected);
+  EXPECT_EQ(spec_error("shelves:10x20:10:1"), "map 'shelves:10x20:10:1': size '10'" + expected);
+  EXPECT_EQ(spec_error("shelves:10x0:10x2:1"),
+            "map 'shelves:10x0:10x2:1': number not within 1 to 8192" + expected);
+  EXPECT_EQ(spec_error("shelves:8192x1:8192x1:1"),
+            "map of 100671489 x 5 cells, expected 1 to 8192 along each side");
   EXPECT_EQ(spec_error("empty:1000000000x1000000000"),
             "map of 1000000000 x 1000000000 cells, expected 1 to 8192 along each side");
   EXPECT_EQ(spec_error("empty:0x4"), "map of 0 x 4 cells, expected 1 to 8192 along each side");
@@ -66,8 +76,41 @@ TEST(GeneratorInstances, MapSpecs) {
             "no/such.map: cannot be read: no such file or directory, expected a readable file");
 }
 
+std::string drawn(const char* text, std::uint64_t seed) {
+  const GridMap map = *make_map(spec_of(text), seed);
+  std::string rows;
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    for (std::int32_t x = 0; x < map.width(); ++x) rows += map.is_blocked({x, y}) ? '#' : '.';
+    rows += '\n';
+  }
+  return rows;
+}
+
+// MovingAI's are warehouse-10-20-10-2-1 (5,699 free cells) and warehouse-20-40-10-2-2 (38,756).
+TEST(GeneratorInstances, ShelvesStandAsInMovingAisWarehouses) {
+  EXPECT_EQ(drawn("shelves:2x2:4x2:1", 1),
+            "###############\n"
+            "#.............#\n"
+            "#..####.####..#\n"
+            "#..####.####..#\n"
+            "#.............#\n"
+            "#..####.####..#\n"
+            "#..####.####..#\n"
+            "#.............#\n"
+            "###############\n");
+  const GridMap small = *make_map(spec_of("shelves:10x20:10x2:1"), 1);
+  EXPECT_EQ(small.width(), 161);
+  EXPECT_EQ(small.height(), 63);
+  EXPECT_EQ(small.cell_count() - small.blocked_count(), 5699u);
+  const GridMap large = *make_map(spec_of("shelves:20x40:10x2:2"), 1);
+  EXPECT_EQ(large.width(), 340);
+  EXPECT_EQ(large.height(), 164);
+  EXPECT_EQ(large.cell_count() - large.blocked_count(), 38756u);
+}
+
 TEST(GeneratorInstances, AreProperAndEveryGoalIsInReach) {
-  for (const char* map : {"empty:9x7", "random:12x12:0.3", "warehouse"}) {
+  for (const char* map :
+       {"empty:9x7", "random:12x12:0.3", "maze:20x20:4", "warehouse", "shelves:3x2:4x2:3"}) {
     for (const double radius_cells : {0.25, 0.5, 0.7, 1.2}) {
       for (std::uint64_t index = 0; index < 20; ++index) {
         const std::size_t agents = radius_cells > 1 ? 2 : 10;

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "planner/complete/complete_planner.hpp"
+#include "planner/complete/lacam.hpp"
 #include "planner/core/random.hpp"
+#include "planner/retime/unit_schedule.hpp"
 #include "sipplab/generator.hpp"
 
 namespace sipplab {
@@ -102,6 +104,35 @@ TEST(TrafficCosts, PathsGoAroundTrafficTheOtherWay) {
     EXPECT_EQ(std::min(to_the_right, to_the_left), static_cast<int>(kFreeMoveCost)) << "row " << y;
     EXPECT_EQ(std::max(to_the_right, to_the_left), 2 * static_cast<int>(kFreeMoveCost)) << "row " << y;
   }
+}
+
+TEST(Lacam, CheapRowsOfPushesMakeShorterPlansOfCrowds) {
+  GeneratorOptions wanted;
+  wanted.agents = 200;
+  double cheap_s = 0;
+  double other_s = 0;
+  for (wanted.index = 0; wanted.index < 5; ++wanted.index) {
+    const auto instance = generate_instance(GridMap(16, 16), wanted);
+    ASSERT_TRUE(instance);
+    const FreeGrid grid(instance->map);
+    CellIds starts;
+    CellIds goals;
+    for (const Agent& agent : instance->agents) {
+      starts.push_back(grid.id(agent.start));
+      goals.push_back(grid.id(agent.goal));
+    }
+    Lacam lacam(grid, starts, goals);
+    const auto flowtime = [&](bool push_cheaply) {
+      LacamLimits limits;
+      limits.push_cheaply = push_cheaply;
+      const LacamResult result = lacam.search(1, limits);
+      EXPECT_EQ(result.status, LacamStatus::kSolved);
+      return flowtime_s(unit_schedule(grid, Visits(result.steps, grid.size()), 1, 1).solution);
+    };
+    cheap_s += flowtime(true);
+    other_s += flowtime(false);
+  }
+  EXPECT_LT(cheap_s, 0.75 * other_s);
 }
 
 TEST(CompletePlanner, KeepsThePlanThatCostsLeastByTheObjective) {

@@ -14,21 +14,41 @@
 
 namespace sipplab {
 
-/// What map to make: "empty:32x32", "random:32x32:0.2" (exactly that share of
-/// the cells blocked, rounded), "warehouse", or a path to a map file.
+/// Rows and columns of shelves of so many cells.
+struct Shelves {
+  std::int32_t columns = 0;
+  std::int32_t rows = 0;
+  std::int32_t length = 0;
+  std::int32_t width = 0;
+
+  /// Cells of free space on the left and on the right: a quarter of the shelves.
+  std::int32_t space_beside() const { return columns * length / 4; }
+};
+
+/// What map to make:
+///   "empty:32x32"
+///   "random:32x32:0.2"          exactly that share of the cells blocked, rounded
+///   "caves:65x81:0.5"           the same in lumps, so that halls and passages are left
+///   "rooms:32x32:3"             rooms of 3 x 3 cells with doors of one cell
+///   "maze:32x32:4"              ways four cells wide, of which none closes a ring
+///   "warehouse"                 that of the paper
+///   "shelves:10x20:10x2:1"    ten times twenty shelves of 10 x 2 cells, aisles of one cell
+///   the path of a map file
 struct MapSpec {
-  enum class Kind { kEmpty, kRandom, kWarehouse, kFile };
+  enum class Kind { kEmpty, kRandom, kCaves, kRooms, kMaze, kWarehouse, kShelves, kFile };
   Kind kind = Kind::kEmpty;
   std::int32_t width = 0;
   std::int32_t height = 0;
-  double density = 0;  ///< share of blocked cells, 0 <= density < 1
+  double density = 0;          ///< share of blocked cells, 0 <= density < 1
+  std::int32_t gap_cells = 0;  ///< between walls, or between shelves
+  Shelves shelves;
   std::string path;
 };
 
 /// Errors are one line.
 Expected<MapSpec, std::string> parse_map_spec(std::string_view text);
 
-/// Only kRandom depends on seed and index; kFile reads the file.
+/// Only kRandom, kCaves, kRooms and kMaze depend on seed and index; kFile reads the file.
 Expected<GridMap, std::string> make_map(const MapSpec& spec, std::uint64_t seed, std::uint64_t index = 0);
 
 /// The warehouse of [AY18], section 5: 35 x 21 cells, 100 of them blocked.

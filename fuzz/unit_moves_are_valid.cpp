@@ -1,0 +1,74 @@
+// Claim: a plan of LaCAM that is improved by unit moves is valid for disks, with the start-safe intervals
+// that it states; it is still one of unit moves, is no worse, and is the same on any number of threads.
+#include <iterator>
+#include <optional>
+
+#include "fuzz/support/case_input.hpp"
+#include "fuzz/support/claims.hpp"
+#include "fuzz/support/target.hpp"
+#include "planner/complete/complete_planner.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/retime/steps.hpp"
+#include "planner/unit_moves/improve_unit_moves.hpp"
+#include "property_tests/support/pebble_search.hpp"
+#include "sipplab/validator.hpp"
+
+namespace {
+
+using namespace sipplab;
+using fuzz::Claim;
+using fuzz::Event;
+using fuzz::require;
+
+/// Some milliseconds each.
+constexpr std::uint64_t kMostSteps = 1'000;
+constexpr std::uint64_t kMostIterations = 40;
+
+/// With one of a few objectives, by the seed of the case, which stays the same while a case is made smaller.
+PlannerOptions improving(const PlanCase& plan_case) {
+  constexpr Objective kObjectives[] = {{1, 0}, {0, 1}, {1, 20}};
+  PlannerOptions options = plan_case.options;
+  options.max_expansions = kMostSteps;
+  options.objective = kObjectives[options.seed % std::size(kObjectives)];
+  options.improve = ImproveBudget{};
+  options.improve->iterations = options.seed % (kMostIterations + 1);
+  return options;
+}
+
+PlanCost cost_of(const Solution& solution) { return {flowtime_s(solution), makespan_s(solution)}; }
+
+void check_valid(const Instance& instance, const UnitImprovement& result) {
+  ValidationOptions options;
+  options.ssi_s = result.order.kept_s;
+  options.order = result.order.order;
+  const ValidationReport report = validate(instance, result.solution, options);
+  require(Claim::kPlanIsValid, report.valid(), report.valid() ? "" : report.violations.front().message);
+  require(Claim::kResultIsWhole, unit_visits(instance, FreeGrid(instance.map), result.solution).has_value(),
+          "not a plan of unit moves any more");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto drawn = fuzz::read_case(data, size);
+  if (!drawn) return -1;
+  const PlanCase plan_case = within_complete_model(*drawn);
+  const Instance& instance = plan_case.instance;
+  PlannerOptions options = improving(plan_case);
+  const CompleteResult planned = plan_complete(instance, options);
+  if (planned.status != LacamStatus::kSolved || instance.agents.empty()) return 0;
+  const std::optional<UnitImprovement> result = improve_unit_moves(instance, planned.solution, options);
+  fuzz::count(result ? Event::kSolved : Event::kFailed);
+  if (!result) return 0;  // rounding of lags made it worse
+  check_valid(instance, *result);
+  require(Claim::kImprovementIsNoWorse,
+          !is_better(options.objective, cost_of(planned.solution), cost_of(result->solution)),
+          "worse than the plan that was given");
+  options.threads = 2;
+  const std::optional<UnitImprovement> same = improve_unit_moves(instance, planned.solution, options);
+  require(Claim::kSameInputSamePlan,
+          same && same->solution == result->solution && same->order.order == result->order.order &&
+              same->statistics.expansions == result->statistics.expansions,
+          "another plan on two threads");
+  return 0;
+}
