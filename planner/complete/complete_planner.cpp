@@ -32,6 +32,8 @@ constexpr std::uint64_t kRobotSteps = 500'000;
 constexpr double kShareForCheapPushes = 0.25;
 /// A search that takes so many times the steps of the best plan is given up.
 constexpr std::uint64_t kMostLengths = 2;
+/// A plan as cheap as all shortest paths, up to the rounding of sums, is the best of all.
+constexpr double kRounding = 1e-9;
 
 std::string name_of(const Instance& instance, AgentIndex agent) {
   const std::string& id = instance.agents[agent].id;
@@ -83,6 +85,8 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
   Lacam lacam(grid, starts, goals);
   Random seeds(options.seed);
   CompleteResult result;
+  const double no_less = options.objective.of(static_cast<double>(lacam.least_moves()) * unit_move_s,
+                                              static_cast<double>(lacam.least_steps()) * unit_move_s);
   double least_cost = 0;
   std::uint64_t most_steps = UINT64_MAX;
   const bool begins_cheaply =
@@ -95,7 +99,10 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
     result.configurations += search.configurations;
     if (plans == 0) result.status = search.status;
     if (result.status != LacamStatus::kSolved) break;
-    if (search.status != LacamStatus::kSolved) continue;  // it took too long
+    if (search.status != LacamStatus::kSolved) {
+      if (search.steps_tried < limits.max_steps) break;  // out of time
+      continue;                                          // a plan that is longer than the best by far
+    }
 
     Visits visits(search.steps, grid.size());
     visits.remove_round_trips();
@@ -109,6 +116,7 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
     StartOrder kept = longest_kept_order(instance, visits, schedule.arrivals_s, options.ssi_s);
     result.order = std::move(kept.order);
     result.ssi_kept_s = kept.kept_s;
+    if (cost <= no_less * (1 + kRounding)) break;
   }
   return result;
 }

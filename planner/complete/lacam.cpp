@@ -278,6 +278,7 @@ Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals)
   is_solvable_ = lengths.has_value();
   if (!is_solvable_ || starts_.empty()) return;
   longest_ = *std::max_element(lengths->begin(), lengths->end());
+  all_lengths_ = std::accumulate(lengths->begin(), lengths->end(), std::uint64_t{0});
   order_.robots = choosing_order(grid_, goals_, *lengths, is_crowded());
   guide_.emplace(grid_, goals_, traffic_costs(grid_, starts_, goals_));
 }

@@ -66,6 +66,10 @@ class Lacam {
   /// the number of robots, in practice a few steps more than the longest path.
   LacamResult search(std::uint64_t seed, const LacamLimits& limits);
 
+  /// Steps of all shortest paths together, and of the longest of them: no plan has fewer.
+  std::uint64_t least_moves() const { return all_lengths_; }
+  std::uint32_t least_steps() const { return longest_; }
+
  private:
   bool is_crowded() const;
 
@@ -76,7 +80,8 @@ class Lacam {
   std::optional<GuidedDistances> guide_;
   ChoosingOrder order_;
   std::uint32_t longest_ = 0;  ///< steps of the longest path
-  bool is_solvable_ = true;    ///< each goal can be reached
+  std::uint64_t all_lengths_ = 0;
+  bool is_solvable_ = true;  ///< each goal can be reached
 };
 
 }  // namespace sipplab

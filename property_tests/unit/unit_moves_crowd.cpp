@@ -20,7 +20,7 @@ TEST(UnitMoves, AThousandRobotsGetTheSamePlanOnAnyNumberOfThreads) {
   const CompleteResult planned = plan_complete(*instance, {});
   ASSERT_EQ(planned.status, LacamStatus::kSolved);
   std::optional<UnitImprovement> one;
-  for (const unsigned threads : {1U, 2U, 3U}) {
+  for (const unsigned threads : {1U, 3U}) {
     PlannerOptions options;
     options.threads = threads;
     options.improve = ImproveBudget{};
