@@ -62,8 +62,8 @@ constexpr NamedCommand kPlanningCommands[] = {
     {kDocumentation, add_plainly<add_documentation_command>},
 };
 
-/// The command that is named first; all of them if none is, or if it is the one that tells of all. A
-/// program starts four times as fast with one command as with all.
+/// The command that is named first; all of them if none is, or if it is the one that tells of all. The
+/// options of all commands take most of the time of a start.
 std::vector<Command> add_commands(CLI::App& program, const Invocation& invocation,
                                   const Laboratory& laboratory) {
   std::vector<NamedCommand> all(std::begin(kPlanningCommands), std::end(kPlanningCommands));

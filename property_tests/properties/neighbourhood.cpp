@@ -87,6 +87,23 @@ Maze any_maze() {
   return maze;
 }
 
+/// Static distances over a maze.
+struct MazeDistances {
+  Maze maze = any_maze();
+  int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
+  LineOfSight line_of_sight{maze.map, maze.radius};
+  StepTable steps{line_of_sight, maze.map.cell_count(), k};
+  StaticDistances distances{maze.map, line_of_sight, steps, k};
+
+  /// REQUIRES: some cell is legal.
+  Cell any_place() const { return *rc::gen::elementOf(maze.legal); }
+  std::vector<double> paths_from(Cell cell) const {
+    return shortest_paths(maze.map, cell, k, [&](Cell from, Cell to) {
+      return line_of_sight.is_legal(to) && line_of_sight.is_clear(from, to);
+    });
+  }
+};
+
 Cell any_far_cell() {
   constexpr std::int32_t kSide = 8192;
   return *any_cell(kSide, kSide);
@@ -112,25 +129,18 @@ const PropertyRoom room("neighbourhood", [] {
 
   passed &=
       property("excess_cells: what Dijkstra's algorithm finds among obstacles beyond the empty grid", [] {
-        const Maze maze = any_maze();
+        MazeDistances drawn;
+        auto& [maze, k, line_of_sight, steps, distances] = drawn;
         RC_PRE(!maze.legal.empty());
-        const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
-        const LineOfSight line_of_sight(maze.map, maze.radius);
-        StepTable steps(line_of_sight, maze.map.cell_count(), k);
-        StaticDistances distances(maze.map, line_of_sight, steps, k);
-        const auto may_step = [&](Cell from, Cell to) {
-          return line_of_sight.is_legal(to) && line_of_sight.is_clear(from, to);
-        };
-        const auto any_place = [&] { return *rc::gen::elementOf(maze.legal); };
         // Some goals come again, with what is known of them.
-        const std::vector<Cell> goals{any_place(), any_place()};
+        const std::vector<Cell> goals{drawn.any_place(), drawn.any_place()};
         bool longer = false;
         for (int round = 0; round < 3; ++round) {
           const Cell goal = *rc::gen::elementOf(goals);
-          const std::vector<double> paths = shortest_paths(maze.map, goal, k, may_step);
-          distances.set_goal(goal, any_place());
+          const std::vector<double> paths = drawn.paths_from(goal);
+          distances.set_goal(goal, drawn.any_place());
           for (int i = 0; i < 5; ++i) {
-            const Cell cell = any_place();
+            const Cell cell = drawn.any_place();
             const double path = paths[maze.map.index(cell)];
             const double excess = distances.excess_cells(cell);
             if (path == std::numeric_limits<double>::infinity()) {
@@ -147,22 +157,15 @@ const PropertyRoom room("neighbourhood", [] {
       });
 
   passed &= property("turning_point: in sight, and on a shortest path that turns", [] {
-    const Maze maze = any_maze();
+    MazeDistances drawn;
+    auto& [maze, k, line_of_sight, steps, distances] = drawn;
     RC_PRE(!maze.legal.empty());
-    const int k = *rc::gen::inRange(kMinConnectedness, kMaxConnectedness + 1);
-    const LineOfSight line_of_sight(maze.map, maze.radius);
-    StepTable steps(line_of_sight, maze.map.cell_count(), k);
-    StaticDistances distances(maze.map, line_of_sight, steps, k);
-    const auto may_step = [&](Cell from, Cell to) {
-      return line_of_sight.is_legal(to) && line_of_sight.is_clear(from, to);
-    };
-    const auto any_place = [&] { return *rc::gen::elementOf(maze.legal); };
-    const Cell goal = any_place();
-    const std::vector<double> to_goal = shortest_paths(maze.map, goal, k, may_step);
-    distances.set_goal(goal, any_place());
+    const Cell goal = drawn.any_place();
+    const std::vector<double> to_goal = drawn.paths_from(goal);
+    distances.set_goal(goal, drawn.any_place());
     int turns = 0;
     for (int i = 0; i < 5; ++i) {
-      const Cell cell = any_place();
+      const Cell cell = drawn.any_place();
       const Cell turn = distances.turning_point(cell);
       const double path = to_goal[maze.map.index(cell)];
       if (turn == cell) {
@@ -171,7 +174,7 @@ const PropertyRoom room("neighbourhood", [] {
       }
       ++turns;
       RC_ASSERT(line_of_sight.is_clear(cell, turn));
-      const std::vector<double> to_turn = shortest_paths(maze.map, turn, k, may_step);
+      const std::vector<double> to_turn = drawn.paths_from(turn);
       RC_ASSERT(turn != goal);
       RC_ASSERT(nearly(to_turn[maze.map.index(cell)] + to_goal[maze.map.index(turn)], path));
     }
