@@ -21,8 +21,8 @@ using fuzz::Event;
 using fuzz::require;
 
 /// Some milliseconds each.
-constexpr std::uint64_t kMostSteps = 1'000;
-constexpr std::uint64_t kMostIterations = 40;
+constexpr std::uint64_t kMostSteps = 50'000;
+constexpr std::uint64_t kIterations = 40;
 
 /// With one of a few objectives, by the seed of the case, which stays the same while a case is made smaller.
 PlannerOptions improving(const PlanCase& plan_case) {
@@ -31,7 +31,7 @@ PlannerOptions improving(const PlanCase& plan_case) {
   options.max_expansions = kMostSteps;
   options.objective = kObjectives[options.seed % std::size(kObjectives)];
   options.improve = ImproveBudget{};
-  options.improve->iterations = options.seed % (kMostIterations + 1);
+  options.improve->iterations = kIterations;
   return options;
 }
 
