@@ -16,6 +16,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/cli/report_flags.hpp"
 #include "bench/gate/comparison.hpp"
+#include "bench/gate/error_rates.hpp"
 #include "bench/gate/report.hpp"
 #include "bench/gate/slowdown.hpp"
 #include "bench/gate/worker.hpp"
@@ -97,6 +98,7 @@ int run_calibration(const GateArguments& arguments, const bench::GateCases& case
   }
   live.show("");
   bench::update_noise(request, cases, noise, *last);
+  last->error_rates = bench::error_rates(request, cases, noise, *last);
   warn_of_unfit_builds(*last);
   print(arguments.report.wants_json() ? bench::noise_json(request, *last)
                                       : bench::noise_text(request, *last));

@@ -15,26 +15,6 @@
 namespace sipplab::bench {
 namespace {
 
-/// What the calibrations say about one row, as log ratios.
-struct RowNoise {
-  std::size_t comparisons = 0;
-  std::vector<double> pairs;
-};
-
-RowNoise calibrated(const Difference& row, const GateCases& cases, const std::vector<db::GateNoise>& noise) {
-  RowNoise found;
-  std::optional<db::CaseInfo> parameters;
-  if (row.cell) parameters = cases.cells()[*row.cell].row;
-  for (const db::GateNoise& of_row : noise) {
-    if (of_row.parameters != parameters) continue;
-    for (const std::vector<double>& comparison : of_row.comparisons) {
-      ++found.comparisons;
-      for (const double slowdown : comparison) found.pairs.push_back(std::log1p(slowdown));
-    }
-  }
-  return found;
-}
-
 class Comparison {
  public:
   Comparison(const GateRequest& request, const GateCases& cases, const std::vector<db::GateNoise>& noise,
@@ -240,6 +220,20 @@ Expected<GateResult, std::string> compare_builds(const GateRequest& request, con
                                                  const std::vector<db::GateNoise>& noise,
                                                  const GateProgress& progress) {
   return Comparison(request, cases, noise, progress).run();
+}
+
+RowNoise calibrated(const Difference& row, const GateCases& cases, const std::vector<db::GateNoise>& noise) {
+  RowNoise found;
+  std::optional<db::CaseInfo> parameters;
+  if (row.cell) parameters = cases.cells()[*row.cell].row;
+  for (const db::GateNoise& of_row : noise) {
+    if (of_row.parameters != parameters) continue;
+    for (const std::vector<double>& comparison : of_row.comparisons) {
+      ++found.comparisons;
+      for (const double slowdown : comparison) found.pairs.push_back(std::log1p(slowdown));
+    }
+  }
+  return found;
 }
 
 db::GateKind gate_kind(const GateRequest& request) {

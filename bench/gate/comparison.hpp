@@ -29,14 +29,29 @@ struct GateRequest {
   bool treat_as_different = false;  ///< judge times even if both programs are the same file
 };
 
+/// What to plant into a comparison of equal builds.
+struct Planted {
+  double slowdown = 0;                  ///< a logarithm: 0.03 is 3 % slower; 0: nothing
+  std::optional<std::size_t> row = {};  ///< of the rows of times; none: all
+};
+
+/// Verdicts of comparisons into which the same was planted.
+struct ErrorRate {
+  Planted planted;
+  std::size_t comparisons = 0;
+  std::size_t regressed = 0;
+  std::size_t inconclusive = 0;
+};
+
 struct GateResult {
   WorkerGreeting base;
   WorkerGreeting head;
   std::string started_utc;
   double wall_s = 0;
-  std::size_t calibrations = 0;  ///< comparisons of equal builds behind the noise
-  Judgement judgement;           ///< its cells are those of the cases, its times those of the timed ones;
-                                 ///< then come those of sweeps
+  std::size_t calibrations = 0;             ///< comparisons of equal builds behind the noise
+  std::vector<ErrorRate> error_rates = {};  ///< of calibrations alone
+  Judgement judgement;  ///< its cells are those of the cases, its times those of the timed ones;
+                        ///< then come those of sweeps
 };
 
 /// What pairs of processes gave: times of all cells together, then of each timed cell, then the memory of
@@ -53,6 +68,13 @@ Expected<GateResult, std::string> compare_builds(const GateRequest& request, con
 
 /// Calibrations of this kind say how noisy the comparison is.
 db::GateKind gate_kind(const GateRequest& request);
+
+/// What the calibrations say about one row.
+struct RowNoise {
+  std::size_t comparisons = 0;
+  std::vector<double> pairs;  ///< log ratios in the order in which they were measured
+};
+RowNoise calibrated(const Difference& row, const GateCases& cases, const std::vector<db::GateNoise>& noise);
 
 /// Puts noise, floor and what can be seen of all rows right once more calibrations are known.
 void update_noise(const GateRequest& request, const GateCases& cases, const std::vector<db::GateNoise>& noise,

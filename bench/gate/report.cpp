@@ -1,10 +1,12 @@
 #include "bench/gate/report.hpp"
-#include "db/json_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "db/json_text.hpp"
+#include "db/statistics/statistics.hpp"
 
 namespace sipplab::bench {
 namespace {
@@ -41,6 +43,24 @@ std::vector<const Difference*> time_rows(const GateResult& result) {
 
 std::string percent(double log_ratio) {
   return std::isfinite(log_ratio) ? fmt::format("{:.1f} %", 100 * std::expm1(log_ratio)) : "-";
+}
+
+std::string place(const GateResult& result, const Planted& planted) {
+  if (!planted.row) return "all cells";
+  return result.judgement.at(time_rows(result)[*planted.row]->cell).name + " alone";
+}
+
+/// "equal builds: 0.1 % called regressed (95 %: 0.0 to 0.4), 0.2 % inconclusive".
+std::string rate_text(const GateResult& result, const ErrorRate& rate) {
+  const double all = static_cast<double>(rate.comparisons);
+  const auto found = static_cast<double>(rate.regressed);
+  const auto interval = db::statistics::wilson_interval(found, all);
+  const std::string head = rate.planted.slowdown == 0
+                               ? std::string("equal builds")
+                               : percent(rate.planted.slowdown) + " slower in " + place(result, rate.planted);
+  return fmt::format("  {}: {:.1f} % called regressed (95 %: {:.1f} to {:.1f}), {:.1f} % inconclusive\n",
+                     head, 100 * found / all, 100 * interval.low, 100 * interval.high,
+                     100 * static_cast<double>(rate.inconclusive) / all);
 }
 
 /// Where those are that are not listed: of the gate's own plannings, and of both sweeps.
@@ -80,12 +100,17 @@ std::string noise_text(const GateRequest& request, const GateResult& result) {
           ? fmt::format("from {} comparison{} of equal builds on this machine", result.calibrations,
                         result.calibrations == 1 ? "" : "s")
           : std::string("from this comparison alone; `sipplab gate --calibrate` measures it");
-  const std::string noise = fmt::format("noise: {:.2f} % over all cells (standard error of {} pairs, {})\n",
-                                        100 * all.noise, request.pairs, source);
-  if (std::isinf(all.detectable)) return noise + "sees: nothing with so few pairs\n";
-  return noise + fmt::format("sees: a slowdown of {} over all cells, of {} in {} alone (19 times of 20)\n",
-                             percent(all.detectable), percent(worst.detectable),
-                             result.judgement.at(worst.cell).name);
+  std::string text = fmt::format("noise: {:.2f} % over all cells (standard error of {} pairs, {})\n",
+                                 100 * all.noise, request.pairs, source);
+  text += std::isinf(all.detectable)
+              ? std::string("sees: nothing with so few pairs\n")
+              : fmt::format("sees: a slowdown of {} over all cells, of {} in {} alone (19 times of 20)\n",
+                            percent(all.detectable), percent(worst.detectable),
+                            result.judgement.at(worst.cell).name);
+  if (result.error_rates.empty()) return text;
+  text += fmt::format("of {} comparisons drawn from these pairs:\n", result.error_rates.front().comparisons);
+  for (const ErrorRate& rate : result.error_rates) text += rate_text(result, rate);
+  return text;
 }
 
 std::string noise_json(const GateRequest& request, const GateResult& result) {
@@ -93,6 +118,13 @@ std::string noise_json(const GateRequest& request, const GateResult& result) {
       {"suite", request.suite}, {"comparisons", result.calibrations}, {"pairs", request.pairs}};
   for (const Difference* row : time_rows(result)) {
     json["rows"].push_back(difference_json(result.judgement, *row));
+  }
+  for (const ErrorRate& rate : result.error_rates) {
+    json["error_rates"].push_back({{"slowdown", std::expm1(rate.planted.slowdown)},
+                                   {"where", place(result, rate.planted)},
+                                   {"comparisons", rate.comparisons},
+                                   {"regressed", rate.regressed},
+                                   {"inconclusive", rate.inconclusive}});
   }
   return db::json_text(json);
 }

@@ -11,7 +11,7 @@ namespace sipplab::bench {
 /// `run`: UUID in the history, empty if it was not recorded.
 Report gate_report(const GateRequest& request, const GateResult& result, const std::string& run);
 
-/// "noise: ...": what was found and what it allows to see, two lines.
+/// "noise: ...": what was found and what it allows to see, two lines; then rates of errors, if there are any.
 std::string noise_text(const GateRequest& request, const GateResult& result);
 std::string noise_json(const GateRequest& request, const GateResult& result);
 

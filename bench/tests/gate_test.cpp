@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/gate/error_rates.hpp"
 #include "bench/gate/gate_cases.hpp"
 #include "bench/gate/laboratory.hpp"
 #include "bench/gate/protocol.hpp"
@@ -199,6 +200,37 @@ TEST(GateEvidence, WhatItSaysThatItSeesIsWhatItSees) {
   EXPECT_TRUE(std::isinf(detectable(sample, {5, 5, kCells + 1}, kLeastFloor)));
 }
 
+std::vector<MeasuredRow> measured_rows(const std::vector<std::vector<double>>& pairs_of_rows) {
+  std::vector<MeasuredRow> rows;
+  for (const Difference& row : looked_at(pairs_of_rows)) rows.push_back({row, row.pairs});
+  return rows;
+}
+
+TEST(GateErrorRates, AreThoseOfTheJudgementThatDrewThem) {
+  Random random(9);
+  constexpr std::size_t kMeasured = 280;
+  const std::vector<MeasuredRow> rows = measured_rows(pairs(random, kMeasured, 0));
+  const GateRequest request;
+  const auto regressed = [&](const Planted& planted) {
+    return error_rate(rows, planted, request, 1000).regressed;
+  };
+  EXPECT_LE(regressed({0}), 10U);
+  const GatePlan plan{request.pairs, request.fresh_pairs, rows.size()};
+  EXPECT_GE(regressed({detectable(rows.back().pairs, plan, kLeastFloor)}), 930U);
+  const Planted in_one{detectable(rows.front().pairs, plan, kLeastFloor), 0};
+  EXPECT_GE(regressed(in_one), 930U);
+  EXPECT_LE(regressed({in_one.slowdown / 4, 0}), 100U);
+}
+
+TEST(GateErrorRates, ShowADisturbanceThatLasts) {
+  // One side is slower for the length of half a look, then the other: the median is zero, comparisons are
+  // wrong.
+  std::vector<double> disturbed;
+  for (int pair = 0; pair < 280; ++pair) disturbed.push_back(pair / 28 % 2 == 0 ? 0.03 : -0.03);
+  EXPECT_GE(error_rate(measured_rows({disturbed}), {}, {}, 1000).regressed, 20U);
+  EXPECT_EQ(error_rate(measured_rows({std::vector<double>(280, 0)}), {}, {}, 1000).regressed, 0U);
+}
+
 TEST(GateEvidence, TheFloorFollowsTheNoise) {
   EXPECT_DOUBLE_EQ(floor_from(0, kLeastFloor), kLeastFloor);
   EXPECT_DOUBLE_EQ(floor_from(0.01, kLeastFloor), kFloorInStandardErrors * 0.01);
@@ -235,6 +267,7 @@ TEST(GateReport, SaysWhatCalibrationsShowInWordsAndInJson) {
     row.detectable = cell ? std::log(1.05) : std::log(1.02);
     result.judgement.differences.push_back(std::move(row));
   }
+  result.error_rates = {{{}, 2000, 2, 10}, {{std::log(1.05), 1}, 2000, 1940, 60}};
   const std::string text = noise_text(request, result);
   EXPECT_NE(text.find("noise: 1.00 % over all cells (standard error of 14 pairs, from 2 comparisons"),
             std::string::npos)
@@ -242,7 +275,15 @@ TEST(GateReport, SaysWhatCalibrationsShowInWordsAndInJson) {
   EXPECT_NE(text.find("sees: a slowdown of 2.0 % over all cells, of 5.0 % in empty:32x32, 32 robots alone"),
             std::string::npos)
       << text;
+  EXPECT_NE(
+      text.find("of 2000 comparisons drawn from these pairs:\n"
+                "  equal builds: 0.1 % called regressed (95 %: 0.0 to 0.4), 0.5 % inconclusive\n"
+                "  5.0 % slower in empty:32x32, 32 robots alone: 97.0 % called regressed (95 %: 96.2 to "
+                "97.7), 3.0 % inconclusive\n"),
+      std::string::npos)
+      << text;
   const auto json = nlohmann::json::parse(noise_json(request, result));
+  EXPECT_EQ(json.at("error_rates").at(1).at("regressed"), 1940);
   EXPECT_EQ(json.at("comparisons"), 2);
   EXPECT_EQ(json.at("pairs"), 14);
   EXPECT_EQ(json.at("rows").size(), 2u);

@@ -27,6 +27,8 @@ refused 'text.db' gate --base . --head . --db text.db
 expect 0 gate --calibrate --comparisons 1 --pairs 6 --pair-seconds 0.01 --fewest-rounds 1 --timed-only --short-cells --db gate.db
 says 'from 1 comparison of equal builds'
 says '^sees: '
+says '^of 2000 comparisons drawn from these pairs:$'
+says '^  equal builds: [0-9.]+ % called regressed \(95 %: '
 
 # The same program and the same plans: whatever the clock says, it is noise.
 expect 0 "${gate[@]}" --pairs 6 --json
