@@ -27,19 +27,22 @@ std::string full_name(const CLI::App& command) {
   return is_first ? command.get_name() : full_name(*parent) + " " + command.get_name();
 }
 
-/// A dash, a backslash or a leading dot of text means something else to troff.
+/// A dash, a backslash or a dot at the beginning of a line mean something else to troff.
 std::string troff(std::string_view text) {
-  std::string line;
+  std::string page;
+  bool begins_line = true;
   for (const char letter : text) {
+    if (begins_line && (letter == '.' || letter == '\'')) page += "\\&";
+    begins_line = letter == '\n';
     if (letter == '-') {
-      line += "\\-";
+      page += "\\-";
     } else if (letter == '\\') {
-      line += "\\e";
+      page += "\\e";
     } else {
-      line += letter;
+      page += letter;
     }
   }
-  return line.starts_with('.') || line.starts_with('\'') ? "\\&" + line : line;
+  return page;
 }
 
 std::string paragraphs(const std::string& text) {

@@ -24,6 +24,8 @@ equal "$(wc -l <log)" 20 "lines of the log after two runs"
 runs 1 property_tests/properties sample
 equal "$(wc -l <log)" 20 "lines of the log after a run without one"
 runs 2 env RC_PARAMS=max_success=many property_tests/properties sample
+runs 2 env RC_PARAMS='seed=7 max_sucess=9' property_tests/properties sample
+prints "RC_PARAMS: unknown key 'max_sucess', expected such as" err
 runs 2 property_tests/properties
 runs 3 property_tests/properties no_such_room
 prints 'expected one of any_angle_search' err

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "bench/campaigns/replay.hpp"
 #include "planner/io/case_codec.hpp"
@@ -106,13 +107,26 @@ class Tally : public rc::detail::TestListenerAdapter {
   std::optional<PlanCase> failing_case_;
 };
 
+/// rapidcheck overlooks keys that it does not know.
+void check_keys(const std::string& params) {
+  const std::string known = " reproduce= " + rc::detail::configToString({});
+  std::istringstream words(params);
+  for (std::string word; words >> word;) {
+    const std::string key = word.substr(0, word.find('='));
+    if (known.find(" " + key + "=") == std::string::npos)
+      throw rc::detail::ConfigurationException("unknown key '" + key + "'");
+  }
+}
+
 /// RC_PARAMS, and the project's own values for what it leaves open.
 rc::detail::Configuration configured(int cases) {
   auto defaults = rc::detail::configFromString(SIPPLAB_PROPERTY_PARAMS);
   defaults.testParams.maxSuccess = cases;
-  const char* params = std::getenv("RC_PARAMS");
+  const char* given = std::getenv("RC_PARAMS");
+  const std::string params = given == nullptr ? "" : given;
   try {
-    return rc::detail::configFromString(params == nullptr ? "" : params, defaults);
+    check_keys(params);
+    return rc::detail::configFromString(params, defaults);
   } catch (const rc::detail::ConfigurationException& error) {
     std::cerr << "RC_PARAMS: " << error.what() << ", expected such as \"seed=7 max_success=100\"\n";
     std::exit(2);
@@ -213,7 +227,9 @@ void end_where_none_was_met() {
 void note_case(const PlanCase& plan_case) { noted_case = plan_case; }
 
 PropertyRoom::PropertyRoom(const char* name, int cases, bool (*run)()) {
-  rooms().emplace(name, Room{cases, run});
+  if (rooms().emplace(name, Room{cases, run}).second) return;
+  std::cerr << "two rooms are called " << name << '\n';
+  std::abort();
 }
 
 int run_room(std::span<const char* const> arguments) {
