@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <string_view>
 
@@ -17,6 +18,8 @@ namespace {
 
 constexpr const char* kNoGnuplot =
     "sipplab: no program gnuplot here, expected it for pictures: apt-get install gnuplot-nox";
+constexpr std::string_view kPlace = "<!--picture ";
+constexpr std::string_view kPlaceEnd = "-->";
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -70,12 +73,21 @@ std::string own_svg(std::string text, const Chart& chart, bool within_page, std:
 
 }  // namespace
 
-std::string picture_place(std::size_t chart) { return fmt::format("<!--picture {}-->", chart); }
+std::string picture_place(std::size_t chart) { return fmt::format("{}{}{}", kPlace, chart, kPlaceEnd); }
 
 Expected<std::string, std::string> with_pictures(std::string page, const std::vector<Chart>& charts) {
   const auto pictures = SIPPLAB_TRY(pictures_of(charts, PictureFormat::kInlineSvg));
-  for (std::size_t i = 0; i < pictures.size(); ++i) replace_all(page, picture_place(i), pictures[i]);
-  return page;
+  // In one pass: some hundred pictures are megabytes.
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = 0; (at = page.find(kPlace, done)) != std::string::npos;) {
+    std::size_t chart = 0;
+    const char* const number = page.data() + at + kPlace.size();
+    const char* const end = std::from_chars(number, page.data() + page.size(), chart).ptr;
+    text.append(page, done, at - done) += pictures.at(chart);
+    done = static_cast<std::size_t>(end - page.data()) + kPlaceEnd.size();
+  }
+  return text.append(page, done);
 }
 
 std::optional<PictureFormat> picture_format(const std::string& file) {

@@ -380,7 +380,7 @@ sweep=(bench --suite smoke --robots 24 --db killed.db)
 begun_cases() { sqlite3 killed.db 'SELECT count(*) FROM cell' 2>/dev/null || echo 0; }
 interrupted_sweep() {
   local victim
-  for count in 64 256 1024 4096; do
+  for count in 16 64 256 1024 4096; do
     rm -f killed.db*
     "$sipplab" "${sweep[@]}" --count "$count" >/dev/null 2>err &
     victim=$!

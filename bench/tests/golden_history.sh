@@ -9,7 +9,8 @@ mkdir -p build/release
 ln -s "$sipplab" build/release/sipplab
 sipplab=$work/build/release/sipplab
 ask() { sqlite3 "${2:-sipplab.db}" "$1"; }
-bench() { expect 0 bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 "$@"; }
+sweep=(--suite smoke --robots 8 --ssi 0,3 --count 3)
+bench() { expect 0 bench "${sweep[@]}" "$@"; }
 
 # --- shards: the parts are the whole, and join up -----------------------------------------
 
@@ -36,7 +37,7 @@ ask "$outcomes" whole.db >whole
 
 bench --repetitions 2 --shard 1/2 --db a.db
 bench --repetitions 2 --shard 2/2 --db b.db
-refused 'expected --resume to go on with it, or --sweep' bench --suite smoke --robots 8,16 --ssi 0,3 --count 3 --repetitions 2 --shard 2/2 --db b.db
+refused 'expected --resume to go on with it, or --sweep' bench "${sweep[@]}" --repetitions 2 --shard 2/2 --db b.db
 expect 0 merge a.db
 equal "$(ask 'SELECT shard, status FROM v_sweeps')" "1/2|finished" "one part"
 echo 'a letter' >text.db
@@ -113,7 +114,7 @@ says '"missing": 0'
 expect 0 task collect tasks --db collected.db
 says '0 new'
 equal "$(ask 'SELECT status, missing, attempts FROM v_sweeps' collected.db)" "finished|0|5" "the collected sweep"
-equal "$(ask 'SELECT command_line FROM run' collected.db)" "sipplab bench --suite smoke --robots 8,16 --ssi 0,3 --count 3" "its command"
+equal "$(ask 'SELECT command_line FROM run' collected.db)" "sipplab bench ${sweep[*]}" "its command"
 mkdir 'a folder'
 bench --db 'a folder/one.db'
 says "^next: .* show --db 'a folder/one.db' [0-9a-f]+, or .* runs --db 'a folder/one.db'$" err
@@ -123,7 +124,7 @@ cmp -s <(ask "$outcomes" collected.db) <(ask "$outcomes" 'a folder/one.db') || c
 expect 0 doctor --db collected.db
 # A task's disk that fills up, has room again, and cannot be written any more, where one can be mounted.
 if unshare --mount --map-root-user true 2>/dev/null; then
-  expect 0 bench --suite density --robots 8 --count 1000 --max-restarts 0 --ssi 0 --reschedule none --plan-tasks small --tasks 2
+  expect 0 bench --suite density --robots 2 --map empty:9x9 --count 2000 --max-restarts 0 --ssi 0 --reschedule none --plan-tasks small --tasks 2
   mkdir disk
   runs 0 unshare --mount --map-root-user bash -c '
     mount -t tmpfs -o size=450k none disk && cp small/sweep.json disk
@@ -167,6 +168,8 @@ refused 'none.db: no such file' merge none.db --db fresh.db
 # --- a history of versions ---------------------------------------------------------------
 
 rm -f sipplab.db*
+# Both maps and all rules, with one set of options each.
+sweep=(--suite smoke --robots 8,16 --ssi 0,3 --count 3 --any-angle --connectedness 2)
 for _ in 1 2; do bench; done
 equal "$(ask "SELECT count(*) > 0, sum(flowtime_bound_s IS NULL), sum(status = 'solved' AND flowtime_gap IS NULL), sum(cpu_time_s IS NULL),
   sum(flowtime_s < flowtime_bound_s - 1e-9), sum(makespan_s < makespan_bound_s - 1e-9) FROM v_results")" '1|0|0|0|0|0' \
@@ -239,8 +242,6 @@ grep -qE '(src|href)="?https?:|<script|@import|url\(' report/index.html && compl
 if command -v xmllint >/dev/null; then
   xmllint --noout report/*.svg trend.svg 2>err || complain "SVG that is no XML: $(head -c 200 err)"
 fi
-expect 0 report -o report --json
-says '"base"'
 refused 'expected latest, a UUID' report xyz -o report
 # Two runs of one program: plans are equal, times are not, and no test judges those. Nothing is marked.
 rm -rf one.db two
@@ -248,11 +249,12 @@ bench --db one.db
 bench --db one.db
 ask "UPDATE result SET planning_time_ns = planning_time_ns * 3 WHERE cell_id IN (SELECT id FROM cell WHERE run_id = 2)" one.db
 expect 0 doctor --fix --db one.db
-expect 0 report --db one.db -o two
+expect 0 report --db one.db -o two --json
+says '"base"'
 says 'same: all [0-9]+ plannings' two/index.html
 sed -n '/id="base"/,/id="trends"/p' two/index.html >part
 grep -nE 'class="[^"]*(bad|good)' part >marked && complain "something is marked between two runs of one program: $(head -3 marked)"
-refused 'is a file|File exists|Not a directory|expected a folder' report -o trend.svg/x
+refused 'is a file|File exists|Not a directory|expected a folder' report --db one.db -o trend.svg/x
 
 # --- imports -----------------------------------------------------------------------------
 

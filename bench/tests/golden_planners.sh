@@ -10,11 +10,13 @@ unlimited=(--memory-limit 1073741824)
 
 # planner NAME: a program from stdin.
 planner() { { echo '#!/bin/sh' && cat; } >"$1" && chmod +x "$1"; }
-# sweeps NAME ARGUMENTS...: two instances of a robot or more through that planner.
+# sweeps NAME ARGUMENTS...: two instances of a robot or more through that planner. The suite has four sets of
+# options for each, of which one will do after the first planner.
+options=()
 sweeps() {
   local name=$1
   shift
-  expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+  expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest "${options[@]}" \
     --db planners.db --planner "cmd:$work/$name {instance} {scen} {out} {config}" "$@"
 }
 # row NAME COLUMNS: of the first instance.
@@ -51,14 +53,16 @@ expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --resc
 equal "$(sqlite3 planners.db "SELECT count(*), count(DISTINCT plan_hash) FROM v_results
     WHERE planner IN ('cmd:honest', 'sipplab')")" '4|2' 'its plans are the same'
 
+options=(--any-angle --connectedness 2)
+
 # From where one stands, by program or by script, and whatever TMPDIR is.
 for command in './honest' 'sh ./honest' "sh ../$(basename "$work")/honest"; do
-  TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+  TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest "${options[@]}" \
     --db "$work/planners.db" --planner "cmd:$command {instance} {scen} {out} {config}" --planner-name "by $command" "${unlimited[@]}"
   equal "$(sqlite3 planners.db "SELECT count(*), sum(status = 'solved') FROM v_results WHERE planner = 'cmd:by $command'")" '2|2' \
     "a planner called as $command"
 done
-TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+TMPDIR=. expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest "${options[@]}" \
   --db "$work/named.db" --planner "cmd:sh ./honest {instance} {scen} {out} {config}" --json "${unlimited[@]}"
 says '"cmd:honest"'
 export TMPDIR=/nowhere/at/all
@@ -97,11 +101,11 @@ equal "$(row names_its_file 'status, valid')" 'solved|1' 'a file with another na
 planner straight <<'E2'
 awk 'NF > 8 { printf "robot %d: (%d,%d,0) -> (%d,%d,%.6f)\n", n++, $5, $6, $7, $8, sqrt(($7-$5)^2+($8-$6)^2) }' "$2" >"$3"
 E2
-expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest \
+expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest "${options[@]}" \
   --db planners.db --planner "cmd:$work/straight {instance} {scen} {out}" --planner-name 'plain lines'
 equal "$(sqlite3 planners.db "SELECT count(*), sum(valid) FROM v_results WHERE planner = 'cmd:plain lines'")" '3|3' \
   'plain lines, rounded to a millionth'
-expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest \
+expect 0 bench --suite smoke --map empty:9x9 --robots 1 --count 3 --ssi 0 --reschedule none --order shortest "${options[@]}" \
   --db planners.db --planner "cmd:$work/straight {instance} {scen} {out}" --planner-name strict --rounding 1e-12
 equal "$(sqlite3 planners.db "SELECT sum(valid) < 3 FROM v_results WHERE planner = 'cmd:strict'")" 1 \
   'no rounding is allowed'
@@ -248,7 +252,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 E2
-expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest \
+expect 0 bench --suite smoke --map empty:9x9 --robots 4 --count 2 --ssi 3 --reschedule none --order shortest "${options[@]}" \
   --db planners.db --planner "pbs:$work/leaper" --retime "${unlimited[@]}"
 equal "$(row pbs 'status, valid')" 'invalid|0' 'a planner that jumps'
 equal "$(row pbs "message LIKE 'solution:1: robot 0 %'")" 1 'what it did is said'

@@ -100,6 +100,7 @@ TEST(Charts, are_drawn_as_a_file_within_a_page_and_as_pdf) {
   ASSERT_TRUE(page);
   EXPECT_EQ(count(*page, "<?xml"), 0U);
   EXPECT_EQ(count(*page, "<svg"), 2U);
+  EXPECT_LT(page->find("c1_"), page->find("c0_")) << "each at its place";
   for (const char* own : {"'c0_gpPt", "'c1_gpPt", "#c0_gpPt", "#c1_gpPt"}) {
     EXPECT_NE(page->find(own), std::string::npos) << "two pictures of a page share no name: " << own;
   }

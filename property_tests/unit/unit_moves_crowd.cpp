@@ -24,12 +24,12 @@ TEST(UnitMoves, AThousandRobotsGetTheSamePlanOnAnyNumberOfThreads) {
     PlannerOptions options;
     options.threads = threads;
     options.improve = ImproveBudget{};
-    options.improve->iterations = 80;
+    options.improve->iterations = 48;
     const std::optional<UnitImprovement> result = improve_unit_moves(*instance, planned.solution, options);
     ASSERT_TRUE(result.has_value());
     if (!one) one = result;
     // Rounds of several changes, or this test shows nothing.
-    EXPECT_GT(result->log.improvements, 20U);
+    EXPECT_GT(result->log.improvements, 12U);
     EXPECT_EQ(result->log.improvements, one->log.improvements);
     EXPECT_EQ(result->statistics.expansions, one->statistics.expansions);
     EXPECT_TRUE(result->solution == one->solution) << threads << " threads";
