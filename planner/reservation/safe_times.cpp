@@ -33,9 +33,13 @@ void SafeTimes::for_each_cell_near(const MovingDisk& disk, Visit&& visit) const 
   const double reach = disk.radius + max_radius_;
   const Vec2 a = disk.from;
   const Vec2 b = disk.path.to;
-  const auto first_from = [](double low) { return static_cast<std::int32_t>(std::max(std::ceil(low), 0.0)); };
+  // Without std::ceil and std::floor, which are function calls on old processors.
+  const auto first_from = [](double low) {
+    const auto whole = static_cast<std::int32_t>(std::max(low, 0.0));
+    return whole + (low > whole ? 1 : 0);
+  };
   const auto last_to = [](double high, std::int32_t most) {
-    return static_cast<std::int32_t>(std::min(std::floor(high), static_cast<double>(most)));
+    return high < 0 ? -1 : static_cast<std::int32_t>(std::min(high, static_cast<double>(most)));
   };
   const auto [left, right] = std::minmax(a.x, b.x);
   const auto [top, bottom] = std::minmax(a.y, b.y);
@@ -128,7 +132,7 @@ SafeTimes::OfRadius& SafeTimes::of_radius(double radius) {
 }
 
 std::span<const SafeInterval> SafeTimes::found_out(std::size_t cell, double radius,
-                                                   const std::vector<MovingDisk>& disks) {
+                                                   const ArenaVector<MovingDisk>& disks) {
   Set& set = of_radius(radius).sets[cell];
   if (set.capacity == 0) return {&kAllTime, 1};
   set.size = 1;

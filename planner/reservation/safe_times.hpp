@@ -29,7 +29,7 @@ class SafeTimes {
   void remove(const MovingDisk& disk, DiskId id);
 
   /// In order. `disks` are all that were added, by id.
-  std::span<const SafeInterval> at(std::size_t cell, double radius, const std::vector<MovingDisk>& disks) {
+  std::span<const SafeInterval> at(std::size_t cell, double radius, const ArenaVector<MovingDisk>& disks) {
     for (std::size_t i = 0; i < used_; ++i) {
       if (by_radius_[i].radius != radius) continue;
       const Set& set = by_radius_[i].sets[cell];
@@ -61,7 +61,7 @@ class SafeTimes {
   };
 
   std::span<const SafeInterval> found_out(std::size_t cell, double radius,
-                                          const std::vector<MovingDisk>& disks);
+                                          const ArenaVector<MovingDisk>& disks);
   OfRadius& of_radius(double radius);
   void cut(Set& set, OpenInterval unsafe);
   void reserve(Set& set, std::uint32_t capacity);

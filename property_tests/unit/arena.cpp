@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -44,6 +45,33 @@ TEST(Arena, AResetForgetsWhatWasGivenBack) {
   arena.give_back(arena.take<std::uint64_t>(8), 8);
   arena.reset();
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(taken.insert(arena.take<std::uint64_t>(8)).second);
+}
+
+TEST(Arena, LargeChunksBeginWhereAHugePageBegins) {
+  std::vector<std::uint8_t*> places;
+  for (int round = 0; round < 2; ++round) {  // kept chunks, too
+    Arena arena;
+    for (const std::size_t size : {3'000'000U, 5'000'000U, 9'000'000U}) {
+      places.push_back(arena.take<std::uint8_t>(size));
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(places.back()) % Arena::kHugePage, 0U);
+      std::fill_n(places.back(), size, std::uint8_t{1});
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(places[i], places[i + 3]);
+}
+
+TEST(Arena, SmallArenasShareAHugePage) {
+  constexpr std::size_t kArenas = 64;
+  std::array<Arena, kArenas> arenas;
+  std::set<std::uintptr_t> huge_pages;
+  std::set<std::uint8_t*> places;
+  for (Arena& arena : arenas) {
+    auto* const place = arena.take<std::uint8_t>(1);
+    places.insert(place);
+    huge_pages.insert(reinterpret_cast<std::uintptr_t>(place) / Arena::kHugePage);
+  }
+  EXPECT_EQ(places.size(), kArenas);
+  EXPECT_LE(huge_pages.size(), 8U);
 }
 
 TEST(Arena, VectorsGrowAndKeepWhatTheyHold) {
