@@ -73,19 +73,16 @@ void Slice::put(const SliceEntry& entry, const Sweep& sweep, const Blocks& block
                        [&](std::size_t block) { push(slots_[block], static_cast<EntryId>(id), arena); });
 }
 
-void Slice::push(Slot& slot, EntryId entry, Arena& arena) {
-  if (slot.is_full()) {
-    std::uint32_t more = free_more_;
-    if (more != 0) {
-      free_more_ = static_cast<std::uint32_t>(more_[more].low);
-    } else {
-      more = more_count_++;
-      make_room(more_, more, more_capacity_, arena);
-    }
-    more_[more] = slot;
-    slot = {0, std::uint64_t{more} << kMoreShift};
+void Slice::overflow(Slot& slot, Arena& arena) {
+  std::uint32_t more = free_more_;
+  if (more != 0) {
+    free_more_ = static_cast<std::uint32_t>(more_[more].low);
+  } else {
+    more = more_count_++;
+    make_room(more_, more, more_capacity_, arena);
   }
-  slot.push(entry);
+  more_[more] = slot;
+  slot = {0, std::uint64_t{more} << kMoreShift};
 }
 
 void Slice::remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks) {

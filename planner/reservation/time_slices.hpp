@@ -112,7 +112,11 @@ class Slice {
     }
     return false;
   }
-  void push(Slot& slot, EntryId entry, Arena& arena);
+  void push(Slot& slot, EntryId entry, Arena& arena) {
+    if (slot.is_full()) overflow(slot, arena);
+    slot.push(entry);
+  }
+  void overflow(Slot& slot, Arena& arena);
   EntryId take_out(Slot& slot, std::uint32_t disk);
 
   Slot* slots_;           ///< by block
