@@ -94,12 +94,12 @@ class ArenaVector {
   }
   void pop_back() { --size_; }
   void clear() { size_ = 0; }
-  void resize(std::size_t size, const T& value) {
+  void resize(std::size_t size, T value) {
     if (size > capacity_) grow(size);
     if (size > size_) std::fill(data_ + size_, data_ + size, value);
     size_ = size;
   }
-  void assign(std::size_t size, const T& value) {
+  void assign(std::size_t size, T value) {
     clear();
     resize(size, value);
   }

@@ -125,11 +125,12 @@ LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
     }
   }
   legal_.assign(map.cell_count(), 0);
+  const std::span<const CellRun> at_rest = runs_.of({0, 0});
   for (std::int32_t y = reach_; y < height_ - reach_; ++y) {
     for (std::int32_t x = reach_; x < width_ - reach_; ++x) {
       bool free = true;
       std::int32_t row = y - reach_;
-      for (const CellRun run : runs_.of({0, 0})) {
+      for (const CellRun run : at_rest) {
         free = free && (run.last < run.first || !is_blocked_in_row(x + run.first, x + run.last, row));
         ++row;
       }

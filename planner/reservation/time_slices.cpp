@@ -56,7 +56,7 @@ Slice::Slice(const Slice& before, const Blocks& blocks, Arena& arena) : Slice(be
 
 bool Slice::fits(const Sweep& sweep, const Blocks& blocks) const {
   std::size_t more = more_count_;
-  if (more + blocks.count() > kMostEntries) blocks.for_each_near(sweep, [&](std::size_t) { ++more; });
+  blocks.for_each_near(sweep, [&](std::size_t) { ++more; });
   return entry_count_ < kMostEntries && more <= kMostEntries;
 }
 
@@ -168,7 +168,7 @@ void TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
     while (slice + (disk.end_s == kForever ? 0 : 1) >= slices_.size()) {
       slices_.push_back(Slice(slices_.back(), blocks_, arena_));
     }
-    fits = slices_[slice].fits(sweep_of(disk, slice), blocks_);
+    fits = slices_[slice].fits_any(blocks_) || slices_[slice].fits(sweep_of(disk, slice), blocks_);
   }
   other_[id] = 0;
   if (fits) {

@@ -73,7 +73,11 @@ class Slice {
     }
   }
 
-  /// Whether there is room for one more.
+  /// Whether there is room for one more, wherever it is.
+  bool fits_any(const Blocks& blocks) const {
+    return entry_count_ < kMostEntries && more_count_ + blocks.count() <= kMostEntries;
+  }
+  /// Whether there is room for this one.
   bool fits(const Sweep& sweep, const Blocks& blocks) const;
   /// REQUIRES: it fits.
   void put(const SliceEntry& entry, const Sweep& sweep, const Blocks& blocks, Arena& arena);
