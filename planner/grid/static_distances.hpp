@@ -55,9 +55,9 @@ class StaticDistances {
   };
   /// What is known of a cell: its distance to the goal, and the steps that lead on from it.
   struct Known {
-    std::uint64_t pending : 8 = 0;  ///< steps to follow
-    std::uint64_t followed : 8 = 0;
     std::uint64_t length : kLengthBits = kFar;  ///< final if the estimate is below the level
+    std::uint64_t pending : 8 = 0;              ///< steps to follow
+    std::uint64_t followed : 8 = 0;
   };
   /// The longest step, of sqrt(13) cells, raises the estimate by at most twice its length.
   static constexpr std::size_t kBuckets = 9;
