@@ -1,7 +1,9 @@
 #include "planner/core/arena.hpp"
 
+#include <cstdint>
 #include <mutex>
 #include <new>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -10,25 +12,46 @@
 namespace sipplab {
 namespace {
 
-/// Bytes of the first chunk: what planning a dozen robots takes. Each further one of an arena is as large as
-/// all before it together, up to kLargestChunk.
-constexpr std::size_t kFirstChunk = std::size_t{128} << 10;
+/// Bytes of the first chunk. Each further one of an arena is as large as all before it together, up to
+/// kLargestChunk.
+constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
 constexpr std::size_t kLargestChunk = std::size_t{8} << 20;
 /// Bytes given back that are kept for later; more goes back to the system.
 constexpr std::size_t kMostKept = std::size_t{256} << 20;
 constexpr std::size_t kSmallestPiece = 64;
 
-/// Populates the pages in one call; harmless if the system cannot.
-void make_ready([[maybe_unused]] std::byte* begin, [[maybe_unused]] std::size_t bytes) {
-#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
-  madvise(begin, bytes, MADV_POPULATE_WRITE);
-#elif defined(__linux__)
-  constexpr int kPopulateWrite = 23;  // Linux 5.14; older C libraries do not name it
-  madvise(begin, bytes, kPopulateWrite);
-#endif
+#if defined(__linux__)
+/// Whole pages, aligned to huge ones.
+std::byte* pages(std::size_t bytes) {
+  void* const place =
+      mmap(nullptr, bytes + Arena::kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (place == MAP_FAILED) throw std::bad_alloc{};
+  auto* const begin = static_cast<std::byte*>(place);
+  const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(begin) % Arena::kHugePage;
+  if (skipped > 0) munmap(begin, skipped);
+  munmap(begin + skipped + bytes, Arena::kHugePage - skipped);
+  madvise(begin + skipped, bytes, MADV_HUGEPAGE);  // harmless if the system has none
+  return begin + skipped;
 }
 
-constexpr std::align_val_t kPage{4096};
+void give_back_pages(std::byte* begin, std::size_t bytes) { munmap(begin, bytes); }
+
+/// Populates the pages in one call; harmless if the system cannot.
+void make_ready(std::byte* begin, std::size_t bytes) {
+  constexpr int kPopulateWrite = 23;  // Linux 5.14; older C libraries do not name it
+  madvise(begin, bytes, kPopulateWrite);
+}
+#else
+std::byte* pages(std::size_t bytes) {
+  return static_cast<std::byte*>(operator new (bytes, std::align_val_t{Arena::kHugePage}));
+}
+
+void give_back_pages(std::byte* begin, std::size_t) {
+  operator delete (begin, std::align_val_t{Arena::kHugePage});
+}
+
+void make_ready(std::byte*, std::size_t) {}
+#endif
 
 }  // namespace
 
@@ -41,6 +64,7 @@ class ChunkStore {
   }
 
   Arena::Chunk take(std::size_t least_bytes) {
+    Arena::Chunk fresh{nullptr, least_bytes};
     {
       const std::lock_guard lock(mutex_);
       // The smallest that is large enough, since large ones are costly.
@@ -54,28 +78,41 @@ class ChunkStore {
         kept_bytes_ -= chunk.bytes;
         return chunk;
       }
+      if (least_bytes <= Arena::kHugePage) fresh.begin = cut(least_bytes);
     }
-    const Arena::Chunk chunk{static_cast<std::byte*>(operator new(least_bytes, kPage)), least_bytes};
-    make_ready(chunk.begin, chunk.bytes);
-    return chunk;
+    if (fresh.begin == nullptr) fresh.begin = pages(least_bytes);
+    make_ready(fresh.begin, fresh.bytes);
+    return fresh;
   }
 
   void give_back(const Arena::Chunk& chunk) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (kept_bytes_ + chunk.bytes <= kMostKept) {
-        kept_bytes_ += chunk.bytes;
-        kept_.push_back(chunk);
-        return;
-      }
+    const std::lock_guard lock(mutex_);
+    if (chunk.bytes > Arena::kHugePage && kept_bytes_ + chunk.bytes > kMostKept) {
+      give_back_pages(chunk.begin, chunk.bytes);
+    } else {
+      keep(chunk);
     }
-    operator delete(chunk.begin, kPage);
   }
 
  private:
+  void keep(const Arena::Chunk& chunk) {
+    kept_bytes_ += chunk.bytes;
+    kept_.push_back(chunk);
+  }
+  /// From the last huge page, or from a new one.
+  std::byte* cut(std::size_t bytes) {
+    if (page_.bytes < bytes) {
+      if (page_.bytes > 0) keep(page_);
+      page_ = {pages(Arena::kHugePage), Arena::kHugePage};
+    }
+    page_.bytes -= bytes;
+    return std::exchange(page_.begin, page_.begin + bytes);
+  }
+
   std::mutex mutex_;
   std::vector<Arena::Chunk> kept_;
   std::size_t kept_bytes_ = 0;
+  Arena::Chunk page_{nullptr, 0};  ///< what is left of the last huge page
 };
 
 std::size_t Arena::size_class(std::size_t bytes) {

@@ -12,11 +12,15 @@
 namespace sipplab {
 
 /// A bump allocator over chunks of pages. Chunks come from a store of the whole process, which keeps
-/// their pages resident: in a fresh process a page fault costs as much as planning for a microsecond or
-/// more, and later plans pay for none. New chunks are populated in one call if the system can
-/// (madvise), else page by page as usual. For one thread at a time; the store is for all threads.
+/// their pages resident: in a fresh process a page fault costs as much as planning for some microseconds,
+/// and later plans pay for none. Small chunks of all arenas are cut from the same huge pages. If the system
+/// has none, new chunks are populated in one call if it can (madvise), else page by page as usual. For one
+/// thread at a time; the store is for all threads.
 class Arena {
  public:
+  /// Bytes, on most machines; a greater chunk begins where one begins.
+  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
   Arena() = default;
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
@@ -90,12 +94,12 @@ class ArenaVector {
   }
   void pop_back() { --size_; }
   void clear() { size_ = 0; }
-  void resize(std::size_t size, const T& value) {
+  void resize(std::size_t size, T value) {
     if (size > capacity_) grow(size);
     if (size > size_) std::fill(data_ + size_, data_ + size, value);
     size_ = size;
   }
-  void assign(std::size_t size, const T& value) {
+  void assign(std::size_t size, T value) {
     clear();
     resize(size, value);
   }

@@ -76,15 +76,19 @@ SweptRuns::SweptRuns(double radius, std::int32_t reach, std::int32_t longest)
     : radius_(radius),
       longest_kept_(std::min(longest, kLongestKept)),
       reach_(reach),
-      begins_(static_cast<std::size_t>((longest_kept_ + 1) * (longest_kept_ + 1)), 0),
-      kept_(1) {}
+      begins_(arena_),
+      kept_(arena_),
+      scratch_(arena_) {
+  begins_.assign(static_cast<std::size_t>((longest_kept_ + 1) * (longest_kept_ + 1)), 0);
+  kept_.push_back({});
+}
 
 std::span<const CellRun> SweptRuns::of(Cell displacement) {
   const auto rows = static_cast<std::size_t>(displacement.y + 2 * reach_ + 1);
   if (displacement.x > longest_kept_ || displacement.y > longest_kept_) {
     scratch_.clear();
     append(displacement, scratch_);
-    return scratch_;
+    return {scratch_.data(), scratch_.size()};
   }
   std::uint32_t& begin =
       begins_[static_cast<std::size_t>(displacement.y * (longest_kept_ + 1) + displacement.x)];
@@ -92,10 +96,10 @@ std::span<const CellRun> SweptRuns::of(Cell displacement) {
     begin = static_cast<std::uint32_t>(kept_.size());
     append(displacement, kept_);
   }
-  return std::span(kept_).subspan(begin, rows);
+  return {kept_.data() + begin, rows};
 }
 
-void SweptRuns::append(Cell displacement, std::vector<CellRun>& runs) const {
+void SweptRuns::append(Cell displacement, ArenaVector<CellRun>& runs) const {
   const Capsule capsule(displacement, radius_);
   for (std::int32_t row = -reach_; row <= displacement.y + reach_; ++row) runs.push_back(capsule.run(row));
 }
@@ -121,11 +125,12 @@ LineOfSight::LineOfSight(const GridMap& map, double radius_cells)
     }
   }
   legal_.assign(map.cell_count(), 0);
+  const std::span<const CellRun> at_rest = runs_.of({0, 0});
   for (std::int32_t y = reach_; y < height_ - reach_; ++y) {
     for (std::int32_t x = reach_; x < width_ - reach_; ++x) {
       bool free = true;
       std::int32_t row = y - reach_;
-      for (const CellRun run : runs_.of({0, 0})) {
+      for (const CellRun run : at_rest) {
         free = free && (run.last < run.first || !is_blocked_in_row(x + run.first, x + run.last, row));
         ++row;
       }

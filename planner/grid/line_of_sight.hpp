@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/core/arena.hpp"
 #include "sipplab/error.hpp"
 #include "sipplab/grid_map.hpp"
 
@@ -41,14 +42,15 @@ class SweptRuns {
   std::span<const CellRun> of(Cell displacement);
 
  private:
-  void append(Cell displacement, std::vector<CellRun>& runs) const;
+  void append(Cell displacement, ArenaVector<CellRun>& runs) const;
 
   double radius_;
   std::int32_t longest_kept_;
   std::int32_t reach_;
-  std::vector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not computed yet
-  std::vector<CellRun> kept_;
-  std::vector<CellRun> scratch_;
+  Arena arena_;
+  ArenaVector<std::uint32_t> begins_;  ///< into kept_, by displacement; 0: not computed yet
+  ArenaVector<CellRun> kept_;
+  ArenaVector<CellRun> scratch_;
 };
 
 /// Line of sight over one map for disks of one radius.

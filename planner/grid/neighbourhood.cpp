@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <utility>
 
 #include "sipplab/error.hpp"
 
@@ -25,15 +23,11 @@ std::span<const Cell> neighbourhood(int k) {
   return std::span(kNeighbours).first(std::size_t{1} << k);
 }
 
-double neighbourhood_distance(Cell from, Cell to, int k) {
+double distance_in_sectors(std::int64_t x, std::int64_t y, int k) {
   PLANNER_ASSERT(k >= kMinConnectedness && k <= kMaxConnectedness);
   // In the first octant the displacement lies between two neighbouring directions
   // lo = (1, 0) and hi = (1, 1) that span the lattice; their sum splits the sector for
   // the next k. A displacement is i lo + j hi with integers i and j.
-  std::int64_t x = std::abs(static_cast<std::int64_t>(to.x) - from.x);
-  std::int64_t y = std::abs(static_cast<std::int64_t>(to.y) - from.y);
-  if (k == 2) return static_cast<double>(x + y);
-  if (x < y) std::swap(x, y);
   Cell lo{1, 0};
   Cell hi{1, 1};
   for (int split = 3; split < k; ++split) {

@@ -35,7 +35,7 @@ StaticDistances::StaticDistances(const GridMap& map, const LineOfSight& line_of_
       is_canonical_(k == kOctile && line_of_sight.radius_cells() <= StepTable::kCellRadius) {
   for (const Cell step : neighbourhood(k)) {
     steps_.push_back({step, step.y * std::ptrdiff_t{map.width()} + step.x,
-                      static_cast<Length>(std::ldexp(norm(centre(step)), kCellBits))});
+                      static_cast<Length>(norm(centre(step)) / kCellsPerUnit)});
   }
 }
 
@@ -43,6 +43,25 @@ void StaticDistances::set_goal(Cell goal, Cell towards) {
   goal_ = goal;
   towards_ = towards;
   spread_ = nullptr;
+}
+
+inline std::size_t StaticDistances::estimate(const Spread& spread, Cell cell, Length length) const {
+  const double rest = neighbourhood_distance(cell, spread.towards, k_) * kConsistent;
+  return static_cast<std::size_t>((length + static_cast<Length>(rest)) >> kCellBits);
+}
+
+inline std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {
+  if (!is_canonical_) return static_cast<std::uint32_t>(kAllSteps);
+  constexpr std::size_t kStraight = 4;  // each of the other four lies between two of these
+  const auto bit = [](std::size_t i) { return std::uint32_t{1} << i; };
+  if (step >= kStraight) return bit(step) | bit(step - kStraight) | bit((step + 1) % kStraight);
+  // Straight on; also to a side, if the path by a diagonal or by that side first was blocked.
+  const std::size_t left = (step + 3) % kStraight;
+  const std::size_t right = (step + 1) % kStraight;
+  std::uint32_t steps = bit(step);
+  if ((clear_before & bit(left)) == 0) steps |= bit(left) | bit(kStraight + left);
+  if ((clear_before & bit(right)) == 0) steps |= bit(right) | bit(kStraight + step);
+  return steps;
 }
 
 StaticDistances::Spread& StaticDistances::spread_of_goal() {
@@ -65,11 +84,6 @@ StaticDistances::Spread& StaticDistances::spread_of_goal() {
   return spread;
 }
 
-std::size_t StaticDistances::estimate(const Spread& spread, Cell cell, Length length) const {
-  const double rest = neighbourhood_distance(cell, spread.towards, k_) * kConsistent;
-  return static_cast<std::size_t>((length + static_cast<Length>(rest)) >> kCellBits);
-}
-
 double StaticDistances::searched_excess_cells(Cell cell) {
   if (spread_ == nullptr) spread_ = &spread_of_goal();
   const Known& known = spread_->known[map_.index(cell)];
@@ -79,7 +93,7 @@ double StaticDistances::searched_excess_cells(Cell cell) {
   }
   if (known.length == kFar) return kForever;
   const double excess =
-      std::ldexp(static_cast<double>(known.length), -kCellBits) - neighbourhood_distance(cell, goal_, k_);
+      static_cast<double>(known.length) * kCellsPerUnit - neighbourhood_distance(cell, goal_, k_);
   return excess > kRoundingCells ? excess : 0;
 }
 
@@ -114,20 +128,6 @@ Cell StaticDistances::turning_point(Cell cell) {
     at = {at.x + step.cell.x, at.y + step.cell.y};
   }
   return seen;
-}
-
-std::uint32_t StaticDistances::followers(std::size_t step, std::uint32_t clear_before) const {
-  if (!is_canonical_) return static_cast<std::uint32_t>(kAllSteps);
-  constexpr std::size_t kStraight = 4;  // each of the other four lies between two of these
-  const auto bit = [](std::size_t i) { return std::uint32_t{1} << i; };
-  if (step >= kStraight) return bit(step) | bit(step - kStraight) | bit((step + 1) % kStraight);
-  // Straight on; also to a side, if the path by a diagonal or by that side first was blocked.
-  const std::size_t left = (step + 3) % kStraight;
-  const std::size_t right = (step + 1) % kStraight;
-  std::uint32_t steps = bit(step);
-  if ((clear_before & bit(left)) == 0) steps |= bit(left) | bit(kStraight + left);
-  if ((clear_before & bit(right)) == 0) steps |= bit(right) | bit(kStraight + step);
-  return steps;
 }
 
 void StaticDistances::grow(Spread& spread) const {

@@ -44,6 +44,7 @@ class StaticDistances {
   /// Of a path, in 2^-22 cells; a step is rounded down. With 48 bits no path on a map is too long.
   using Length = std::uint64_t;
   static constexpr int kCellBits = 22;
+  static constexpr double kCellsPerUnit = 0x1p-22;
   static constexpr int kLengthBits = 48;
   static constexpr Length kFar = (Length{1} << kLengthBits) - 1;
 

@@ -50,7 +50,8 @@ ReservationTable::ReservationTable(const GridMap& map, const Askers& askers)
       blocks_(map, askers.max_radius_cells + kHalfStepCells + filter_margin(map), kMostBlocks),
       filter_margin_(filter_margin(map)),
       slices_(blocks_, kSliceCells / askers.max_speed_cells_per_s, askers.time_margin_s, arena_),
-      safe_times_(map, askers.max_radius_cells, askers.time_margin_s, arena_) {
+      safe_times_(map, askers.max_radius_cells, askers.time_margin_s, arena_),
+      disks_(arena_) {
   clear();
 }
 
@@ -58,7 +59,7 @@ void ReservationTable::clear() {
   arena_.reset();
   slices_.clear();
   safe_times_.clear();
-  disks_.clear();
+  disks_.abandon();
   free_ids_.clear();
   keepouts_.clear();
 }

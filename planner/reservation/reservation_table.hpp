@@ -113,7 +113,7 @@ class ReservationTable final : public Reservations {
   double filter_margin_;  ///< cells
   TimeSlices slices_;
   SafeTimes safe_times_;
-  std::vector<MovingDisk> disks_;
+  ArenaVector<MovingDisk> disks_;
   std::vector<DiskId> free_ids_;  ///< of disks that were removed
   std::vector<Keepout> keepouts_;
 };

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "planner/core/tolerances.hpp"
 #include "planner/geometry/collision_interval.hpp"
 #include "sipplab/error.hpp"
 
@@ -30,12 +31,16 @@ void SafeTimes::clear() {
 
 template <class Visit>
 void SafeTimes::for_each_cell_near(const MovingDisk& disk, Visit&& visit) const {
-  const double reach = disk.radius + max_radius_;
+  const double reach = disk.radius + max_radius_ - kTouchDepthCells / 2;  // not those that it only touches
   const Vec2 a = disk.from;
   const Vec2 b = disk.path.to;
-  const auto first_from = [](double low) { return static_cast<std::int32_t>(std::max(std::ceil(low), 0.0)); };
+  // Without std::ceil and std::floor, which are function calls on old processors.
+  const auto first_from = [](double low) {
+    const auto whole = static_cast<std::int32_t>(std::max(low, 0.0));
+    return whole + (low > whole ? 1 : 0);
+  };
   const auto last_to = [](double high, std::int32_t most) {
-    return static_cast<std::int32_t>(std::min(std::floor(high), static_cast<double>(most)));
+    return high < 0 ? -1 : static_cast<std::int32_t>(std::min(high, static_cast<double>(most)));
   };
   const auto [left, right] = std::minmax(a.x, b.x);
   const auto [top, bottom] = std::minmax(a.y, b.y);
@@ -69,14 +74,6 @@ OpenInterval SafeTimes::unsafe_at(std::size_t cell, const MovingDisk& disk, doub
 
 void SafeTimes::add(const MovingDisk& disk, DiskId id) {
   for_each_cell_near(disk, [&](std::size_t cell) {
-    bool is_near = used_ == 0;
-    for (std::size_t i = 0; i < used_; ++i) {
-      const OpenInterval unsafe = unsafe_at(cell, disk, by_radius_[i].radius);
-      is_near |= !unsafe.empty() || by_radius_[i].radius < max_radius_;
-      Set& set = by_radius_[i].sets[cell];
-      if (!unsafe.empty() && (set.capacity == 0 || set.size != kUnknown)) cut(set, unsafe);
-    }
-    if (!is_near) return;
     std::uint32_t place = free_near_;
     if (place != 0) {
       free_near_ = near_[place].next;
@@ -97,10 +94,7 @@ void SafeTimes::remove(const MovingDisk& disk, DiskId id) {
       *link = near_[place].next;
       near_[place].next = free_near_;
       free_near_ = place;
-      for (std::size_t i = 0; i < used_; ++i) {
-        Set& set = by_radius_[i].sets[cell];
-        if (set.capacity > 0) set.size = kUnknown;
-      }
+      for (std::size_t i = 0; i < used_; ++i) by_radius_[i].sets[cell].seen = kRemoved;
       return;
     }
   });
@@ -114,30 +108,32 @@ SafeTimes::OfRadius& SafeTimes::of_radius(double radius) {
   OfRadius& chosen = by_radius_[is_full ? replaced_++ % kMostRadii : used_++];
   if (!is_full) {
     chosen.sets = arena_.take<Set>(map_.cell_count());
-    std::fill_n(chosen.sets, map_.cell_count(), Set{nullptr, 0, 0});
+    std::fill_n(chosen.sets, map_.cell_count(), Set{nullptr, 0, 0, 0});
   }
   chosen.radius = radius;
-  for (std::size_t cell = 0; cell < map_.cell_count(); ++cell) {
-    Set& set = chosen.sets[cell];
-    if (heads_[cell] != 0 || set.capacity > 0) {
-      reserve(set, 1);
-      set.size = kUnknown;
-    }
+  if (is_full) {
+    for (std::size_t cell = 0; cell < map_.cell_count(); ++cell) chosen.sets[cell].seen = kRemoved;
   }
   return chosen;
 }
 
 std::span<const SafeInterval> SafeTimes::found_out(std::size_t cell, double radius,
-                                                   const std::vector<MovingDisk>& disks) {
+                                                   const ArenaVector<MovingDisk>& disks) {
   Set& set = of_radius(radius).sets[cell];
-  if (set.capacity == 0) return {&kAllTime, 1};
-  set.size = 1;
-  set.intervals[0] = kAllTime;
-  for (std::uint32_t place = heads_[cell]; place != 0; place = near_[place].next) {
+  std::uint32_t seen = set.seen;
+  if (seen == kRemoved) {
+    seen = 0;
+    if (set.capacity > 0) {
+      set.size = 1;
+      set.intervals[0] = kAllTime;
+    }
+  }
+  for (std::uint32_t place = heads_[cell]; place != seen; place = near_[place].next) {
     const OpenInterval unsafe = unsafe_at(cell, disks[near_[place].disk], radius);
     if (!unsafe.empty()) cut(set, unsafe);
   }
-  return {set.intervals, set.size};
+  set.seen = heads_[cell];
+  return intervals_of(set);
 }
 
 void SafeTimes::reserve(Set& set, std::uint32_t capacity) {
@@ -148,7 +144,7 @@ void SafeTimes::reserve(Set& set, std::uint32_t capacity) {
   if (set.capacity == 0) {
     set.size = 1;
   } else {
-    std::copy_n(set.intervals, set.size == kUnknown ? 0 : set.size, intervals);
+    std::copy_n(set.intervals, set.size, intervals);
     arena_.give_back(set.intervals, set.capacity);
   }
   set.intervals = intervals;

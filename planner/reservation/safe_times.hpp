@@ -13,8 +13,9 @@
 
 namespace sipplab {
 
-/// Safe intervals of every cell for robots of a few radii, kept up to date as disks are added. After a
-/// removal they are cut out of all time anew when asked for, from the list of disks near the cell.
+/// By cell a list of the disks near it, the newest first; and for robots of a few radii safe intervals, from
+/// which disks are cut when they are asked for: many never are. After a removal they are cut out of all time
+/// anew.
 class SafeTimes {
  public:
   using DiskId = std::uint32_t;
@@ -29,27 +30,27 @@ class SafeTimes {
   void remove(const MovingDisk& disk, DiskId id);
 
   /// In order. `disks` are all that were added, by id.
-  std::span<const SafeInterval> at(std::size_t cell, double radius, const std::vector<MovingDisk>& disks) {
+  std::span<const SafeInterval> at(std::size_t cell, double radius, const ArenaVector<MovingDisk>& disks) {
     for (std::size_t i = 0; i < used_; ++i) {
       if (by_radius_[i].radius != radius) continue;
       const Set& set = by_radius_[i].sets[cell];
-      if (set.capacity == 0) return {&kAllTime, 1};
-      if (set.size != kUnknown) return {set.intervals, set.size};
+      if (set.seen == heads_[cell]) return intervals_of(set);
     }
     return found_out(cell, radius, disks);
   }
 
  private:
   static constexpr SafeInterval kAllTime{};
-  static constexpr std::uint32_t kUnknown = UINT32_MAX;
+  static constexpr std::uint32_t kRemoved = UINT32_MAX;
   static constexpr std::uint32_t kFirstRoom = 4;  ///< intervals; as many as fit the arena's smallest piece
-  static constexpr std::size_t kMostRadii = 4;    ///< that are kept up to date
+  static constexpr std::size_t kMostRadii = 4;    ///< that are kept
 
   /// All of time if the capacity is 0.
   struct Set {
     Interval* intervals;
     std::uint32_t size;
     std::uint32_t capacity;
+    std::uint32_t seen;  ///< the cell's list when its disks were cut, or kRemoved
   };
   struct OfRadius {
     double radius;
@@ -60,8 +61,12 @@ class SafeTimes {
     std::uint32_t next;
   };
 
+  static std::span<const SafeInterval> intervals_of(const Set& set) {
+    if (set.capacity == 0) return {&kAllTime, 1};
+    return {set.intervals, set.size};
+  }
   std::span<const SafeInterval> found_out(std::size_t cell, double radius,
-                                          const std::vector<MovingDisk>& disks);
+                                          const ArenaVector<MovingDisk>& disks);
   OfRadius& of_radius(double radius);
   void cut(Set& set, OpenInterval unsafe);
   void reserve(Set& set, std::uint32_t capacity);

@@ -56,7 +56,7 @@ Slice::Slice(const Slice& before, const Blocks& blocks, Arena& arena) : Slice(be
 
 bool Slice::fits(const Sweep& sweep, const Blocks& blocks) const {
   std::size_t more = more_count_;
-  if (more + blocks.count() > kMostEntries) blocks.for_each_near(sweep, [&](std::size_t) { ++more; });
+  blocks.for_each_near(sweep, [&](std::size_t) { ++more; });
   return entry_count_ < kMostEntries && more <= kMostEntries;
 }
 
@@ -73,19 +73,16 @@ void Slice::put(const SliceEntry& entry, const Sweep& sweep, const Blocks& block
                        [&](std::size_t block) { push(slots_[block], static_cast<EntryId>(id), arena); });
 }
 
-void Slice::push(Slot& slot, EntryId entry, Arena& arena) {
-  if (slot.is_full()) {
-    std::uint32_t more = free_more_;
-    if (more != 0) {
-      free_more_ = static_cast<std::uint32_t>(more_[more].low);
-    } else {
-      more = more_count_++;
-      make_room(more_, more, more_capacity_, arena);
-    }
-    more_[more] = slot;
-    slot = {0, std::uint64_t{more} << kMoreShift};
+void Slice::overflow(Slot& slot, Arena& arena) {
+  std::uint32_t more = free_more_;
+  if (more != 0) {
+    free_more_ = static_cast<std::uint32_t>(more_[more].low);
+  } else {
+    more = more_count_++;
+    make_room(more_, more, more_capacity_, arena);
   }
-  slot.push(entry);
+  more_[more] = slot;
+  slot = {0, std::uint64_t{more} << kMoreShift};
 }
 
 void Slice::remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks) {
@@ -171,7 +168,7 @@ void TimeSlices::put(const MovingDisk& disk, std::uint32_t id) {
     while (slice + (disk.end_s == kForever ? 0 : 1) >= slices_.size()) {
       slices_.push_back(Slice(slices_.back(), blocks_, arena_));
     }
-    fits = slices_[slice].fits(sweep_of(disk, slice), blocks_);
+    fits = slices_[slice].fits_any(blocks_) || slices_[slice].fits(sweep_of(disk, slice), blocks_);
   }
   other_[id] = 0;
   if (fits) {

@@ -73,7 +73,11 @@ class Slice {
     }
   }
 
-  /// Whether there is room for one more.
+  /// Whether there is room for one more, wherever it is.
+  bool fits_any(const Blocks& blocks) const {
+    return entry_count_ < kMostEntries && more_count_ + blocks.count() <= kMostEntries;
+  }
+  /// Whether there is room for this one.
   bool fits(const Sweep& sweep, const Blocks& blocks) const;
   /// REQUIRES: it fits.
   void put(const SliceEntry& entry, const Sweep& sweep, const Blocks& blocks, Arena& arena);
@@ -112,7 +116,11 @@ class Slice {
     }
     return false;
   }
-  void push(Slot& slot, EntryId entry, Arena& arena);
+  void push(Slot& slot, EntryId entry, Arena& arena) {
+    if (slot.is_full()) overflow(slot, arena);
+    slot.push(entry);
+  }
+  void overflow(Slot& slot, Arena& arena);
   EntryId take_out(Slot& slot, std::uint32_t disk);
 
   Slot* slots_;           ///< by block

@@ -38,8 +38,7 @@ class Detours {
     const double left = (reach - missed_by) / std::abs(slant);
     const double right = (reach + missed_by) / std::abs(slant);
 
-    const Cell middle{static_cast<std::int32_t>(std::lround(met.x)),
-                      static_cast<std::int32_t>(std::lround(met.y))};
+    const Cell middle{nearest(met.x), nearest(met.y)};
     for (std::int32_t y = middle.y - kFarthest; y <= middle.y + kFarthest; ++y) {
       for (std::int32_t x = middle.x - kFarthest; x <= middle.x + kFarthest; ++x) {
         const Vec2 place = centre(Cell{x, y});
@@ -68,6 +67,8 @@ class Detours {
     Cell cell;
     double cells = kForever;
   };
+
+  static std::int32_t nearest(double x) { return static_cast<std::int32_t>(x + (x < 0 ? -0.5 : 0.5)); }
 
   void keep(Detour detour, std::size_t side) {
     for (std::size_t i = side; i < side + kPerSide; ++i) {

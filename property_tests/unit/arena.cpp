@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -44,6 +45,31 @@ TEST(Arena, AResetForgetsWhatWasGivenBack) {
   arena.give_back(arena.take<std::uint64_t>(8), 8);
   arena.reset();
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(taken.insert(arena.take<std::uint64_t>(8)).second);
+}
+
+TEST(Arena, LargeChunksBeginWhereAHugePageBegins) {
+  for (int round = 0; round < 2; ++round) {  // the second time they are kept ones
+    Arena arena;
+    for (const std::size_t size : {3'000'000U, 5'000'000U, 9'000'000U}) {
+      auto* const place = arena.take<std::uint8_t>(size);
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(place) % Arena::kHugePage, 0U);
+      std::fill_n(place, size, std::uint8_t{1});
+    }
+  }
+}
+
+TEST(Arena, SmallArenasShareHugePages) {
+  constexpr std::size_t kArenas = 400;  // more than there are kept chunks of other tests
+  std::array<Arena, kArenas> arenas;
+  std::set<std::uintptr_t> huge_pages;
+  std::set<std::uint8_t*> places;
+  for (Arena& arena : arenas) {
+    auto* const place = arena.take<std::uint8_t>(1);
+    places.insert(place);
+    huge_pages.insert(reinterpret_cast<std::uintptr_t>(place) / Arena::kHugePage);
+  }
+  EXPECT_EQ(places.size(), kArenas);
+  EXPECT_LE(huge_pages.size(), kArenas / 2);
 }
 
 TEST(Arena, VectorsGrowAndKeepWhatTheyHold) {
