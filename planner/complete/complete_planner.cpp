@@ -21,11 +21,12 @@ constexpr std::size_t kMaxSearchBytes = std::size_t{2} << 30;
 /// Cells. Bodies up to this size stay apart on unit moves that share no cell.
 constexpr double kLargestRadiusCells = 0.5;
 
-/// Plans from different seeds, of which the cheapest is kept: at most so many, and no more once searches have
-/// moved robots this often (a tenth of a second; 1,000 robots in warehouse-10-20-10-2-1 twice, 10,000 once).
-/// (Flowtime of the paper's warehouse with 192 robots, 4, 8, 16, 24 plans: 8,790, 8,615, 8,514, 8,484 s.)
+/// Plans from different seeds, of which the cheapest is kept: at most so many, and no more once robots have
+/// looked at so many cells (a tenth of a second or less; 950 robots on the empty map of 32 x 32 cells and
+/// 1,000 in warehouse-10-20-10-2-1 plan once, 400 there three times). (Flowtime of the paper's warehouse with
+/// 192 robots, 4, 8, 16, 24 plans: 8,790, 8,615, 8,514, 8,484 s.)
 constexpr int kMostPlans = 24;
-constexpr std::uint64_t kRobotSteps = 500'000;
+constexpr std::uint64_t kMostCellsSeen = 1'800'000;
 /// Every other plan has cheap rows of pushes (LacamLimits::push_cheaply): the first one from this share of
 /// the free cells on. (1,000 robots in warehouse-10-20-10-2-1, 0.18: 15 % dearer; 300 in mazes, 0.38: 17 %
 /// cheaper.)
@@ -89,14 +90,16 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
                                               static_cast<double>(lacam.least_steps()) * unit_move_s);
   double least_cost = 0;
   std::uint64_t most_steps = UINT64_MAX;
+  std::uint64_t cells_seen = 0;
   const bool begins_cheaply =
       static_cast<double>(starts.size()) >= kShareForCheapPushes * static_cast<double>(grid.size());
-  for (int plans = 0; plans < kMostPlans && result.steps_tried * starts.size() <= kRobotSteps; ++plans) {
+  for (int plans = 0; plans < kMostPlans && cells_seen <= kMostCellsSeen; ++plans) {
     limits.push_cheaply = (plans % 2 == 0) == begins_cheaply;
     limits.max_steps = std::min(options.max_expansions - result.steps_tried, most_steps);
     const LacamResult search = lacam.search(seeds.next(), limits);
     result.steps_tried += search.steps_tried;
     result.configurations += search.configurations;
+    cells_seen += search.cells_seen;
     if (plans == 0) result.status = search.status;
     if (result.status != LacamStatus::kSolved) break;
     if (search.status != LacamStatus::kSolved) {

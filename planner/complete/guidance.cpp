@@ -133,7 +133,10 @@ MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellI
 }
 
 GuidedDistances::GuidedDistances(const FreeGrid& grid, const CellIds& goals, const MoveCosts& costs)
-    : grid_(grid), costs_to_(costs.size()), searches_(goals.size()) {
+    : grid_(grid),
+      costs_to_(costs.size()),
+      codes_(goals.size() * grid.size(), kUnknown),
+      searches_(goals.size()) {
   for (CellId cell = 0; cell < grid.size(); ++cell) {
     const auto neighbours = grid.neighbours(cell);
     for (std::size_t i = 0; i < neighbours.size(); ++i) {
@@ -141,36 +144,47 @@ GuidedDistances::GuidedDistances(const FreeGrid& grid, const CellIds& goals, con
     }
   }
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
-    searches_[robot].codes.assign(grid.size(), kUnknown);
-    searches_[robot].queued[0] = {goals[robot]};
+    codes_[robot * grid.size() + goals[robot]] = 1;
+    searches_[robot] = {1, {goals[robot]}};
   }
 }
 
-int GuidedDistances::gain(RobotId robot, CellId from, CellId to) {
-  Search& search = searches_[robot];
-  const int difference = code(search, from) - code(search, to);
-  if (2 * difference > kModulus) return difference - kModulus;
-  return 2 * difference < -kModulus ? difference + kModulus : difference;
-}
-
-int GuidedDistances::code(Search& search, CellId wanted) {
-  while (search.codes[wanted] == kUnknown) {
-    std::vector<CellId>& bucket = search.queued[search.cost % search.queued.size()];
-    if (bucket.empty()) {
-      ++search.cost;
-      continue;
+/// Goes on until the cost is known, and then for as many cells as it took to begin again.
+int GuidedDistances::search(RobotId robot, CellId wanted) {
+  std::uint8_t* const codes = &codes_[robot * grid_.size()];
+  auto& [cost, rim] = searches_[robot];
+  for (const CellId cell : rim) {
+    const std::uint32_t below = (cost + kModulus + 1 - codes[cell]) % kModulus;
+    look_beyond(cell, cost - below, codes);
+  }
+  const std::size_t begun = rim.size();
+  for (std::size_t empty = 0; empty < queued_.size() && (codes[wanted] == kUnknown || rim.size() < 2 * begun);
+       ++cost) {
+    CellIds& cells = queued_[cost % queued_.size()];
+    empty = cells.empty() ? empty + 1 : 0;
+    for (const CellId cell : cells) {
+      if (codes[cell] != kUnknown) continue;
+      codes[cell] = static_cast<std::uint8_t>(1 + cost % kModulus);
+      rim.push_back(cell);
+      look_beyond(cell, cost, codes);
     }
-    const CellId cell = bucket.back();
-    bucket.pop_back();
-    if (search.codes[cell] != kUnknown) continue;
-    search.codes[cell] = static_cast<std::uint8_t>(1 + search.cost % kModulus);
+    cells.clear();
+  }
+  for (CellIds& cells : queued_) cells.clear();
+  std::erase_if(rim, [&](CellId cell) {
     const auto neighbours = grid_.neighbours(cell);
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
-      if (search.codes[neighbours[i]] != kUnknown) continue;
-      search.queued[(search.cost + costs_to_[cell][i]) % search.queued.size()].push_back(neighbours[i]);
-    }
+    return std::all_of(neighbours.begin(), neighbours.end(),
+                       [&](CellId next) { return codes[next] != kUnknown; });
+  });
+  return codes[wanted];
+}
+
+void GuidedDistances::look_beyond(CellId cell, std::uint32_t cost, const std::uint8_t* codes) {
+  const auto neighbours = grid_.neighbours(cell);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (codes[neighbours[i]] != kUnknown) continue;
+    queued_[(cost + costs_to_[cell][i]) % queued_.size()].push_back(neighbours[i]);
   }
-  return search.codes[wanted];
 }
 
 }  // namespace sipplab

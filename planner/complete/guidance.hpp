@@ -31,8 +31,8 @@ inline constexpr std::uint32_t kDearestMoveCost = 40;
 MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals);
 
 /// Costs of the cheapest paths to each robot's goal, found as far as they are asked for: Dijkstra from the
-/// goal, with buckets (Dial 1969). Neighbours differ by kDearestMoveCost at most, so that costs are kept in a
-/// byte a cell.
+/// goal, with buckets (Dial 1969), which all robots share. Neighbours differ by kDearestMoveCost at most, so
+/// that costs are kept in a byte a cell.
 class GuidedDistances {
  public:
   /// Both must outlive this. O(robots x cells) bytes.
@@ -40,7 +40,11 @@ class GuidedDistances {
 
   /// By how much `to` is nearer to the robot's goal than `from`; negative if it is farther away.
   /// REQUIRES: the two are neighbours, and there is a path to the goal.
-  int gain(RobotId robot, CellId from, CellId to);
+  int gain(RobotId robot, CellId from, CellId to) {
+    const int difference = code(robot, from) - code(robot, to);
+    if (2 * difference > kModulus) return difference - kModulus;
+    return 2 * difference < -kModulus ? difference + kModulus : difference;
+  }
 
  private:
   static constexpr int kUnknown = 0;
@@ -49,17 +53,26 @@ class GuidedDistances {
   static_assert(2 * kDearestMoveCost < kModulus);
 
   struct Search {
-    std::vector<std::uint8_t> codes;  ///< by cell: kUnknown, or 1 + cost % kModulus
-    std::uint32_t cost = 0;           ///< of the cells that are looked at
-    /// Cells to look at, by their cost modulo the size: none costs more than a move beyond `cost`.
-    std::array<std::vector<CellId>, kDearestMoveCost + 1> queued;
+    std::uint32_t cost = 0;  ///< costs below are known
+    CellIds rim;             ///< cells whose costs are known, next to others
   };
 
-  int code(Search& search, CellId cell);
+  int code(RobotId robot, CellId cell) {
+    const int known = codes_[robot * grid_.size() + cell];
+    return known != kUnknown ? known : search(robot, cell);
+  }
+  int search(RobotId robot, CellId wanted);
+  /// Queues what is not known yet next to a cell of this cost.
+  void look_beyond(CellId cell, std::uint32_t cost, const std::uint8_t* codes);
 
   const FreeGrid& grid_;
-  MoveCosts costs_to_;  ///< by cell and neighbour: from the neighbour to the cell
+  MoveCosts costs_to_;               ///< by cell and neighbour: from the neighbour to the cell
+  std::vector<std::uint8_t> codes_;  ///< by robot and cell: kUnknown, or 1 + cost % kModulus
   std::vector<Search> searches_;
+
+  /// Of the current search: cells to look at, by their cost modulo the size: none costs more than a move
+  /// beyond those that are looked at.
+  std::array<CellIds, kDearestMoveCost + 1> queued_;
 };
 
 }  // namespace sipplab

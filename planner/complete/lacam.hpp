@@ -42,6 +42,7 @@ struct LacamResult {
   std::vector<Configuration> steps;
   std::uint64_t steps_tried = 0;     ///< steps that PIBT was asked for
   std::uint64_t configurations = 0;  ///< different ones seen
+  std::uint64_t cells_seen = 0;      ///< by robots that chose where to go
 };
 
 /// Which robot chooses first: the latest, by whole multiples of this many steps, then in this order.

@@ -11,7 +11,7 @@ namespace {
 /// What a move costs in a row of pushes. Of the first robot: to stay, to go away from its goal, and what a
 /// quarter of a step that it gains is worth; others go before it only if they are pushed, so that these are
 /// high.
-constexpr std::uint32_t kStayCost = 80;
+constexpr std::uint32_t kStayCost = 28;
 constexpr std::uint32_t kAwayCost = 120;
 constexpr std::uint32_t kGainValue = 4;
 constexpr std::uint32_t kMostGainValue = kGainValue * kDearestMoveCost;
@@ -25,6 +25,9 @@ constexpr std::uint32_t kTurnCost = 2;
 constexpr std::uint64_t kChanceCosts = 4;
 constexpr int kChanceBits = 2;
 
+/// Out of a cell, other than to the one that a robot comes from: two robots can pass each other there.
+constexpr std::size_t kWaysToPass = 2;
+
 }  // namespace
 
 Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cells, std::uint64_t seed)
@@ -35,7 +38,17 @@ Pibt::Pibt(const FreeGrid& grid, GoalDistances& distances, bool prefer_free_cell
       robot_at_(grid.size(), kNoRobot),
       taken_by_(grid.size(), kNoRobot),
       reached_(grid.size()),
-      searched_(grid.size(), 0) {}
+      searched_(grid.size(), 0),
+      is_narrow_(grid.size()) {
+  for (CellId cell = 0; cell < grid.size(); ++cell) {
+    for (const CellId next : grid.neighbours(cell)) {
+      // With robots at their goals in all dead ends there.
+      std::size_t ways = 0;
+      for (const CellId on : grid.neighbours(next)) ways += on != cell && grid.neighbours(on).size() > 1;
+      if (ways < kWaysToPass) is_narrow_[cell] = true;
+    }
+  }
+}
 
 StepOutcome Pibt::make_step(const Configuration& now, std::span<const RobotId> order,
                             std::span<const StepConstraint> constraints, Configuration& next) {
@@ -93,8 +106,8 @@ bool Pibt::move(RobotId root) {
 /// and so on to a cell that is free, or that a robot leaves.
 bool Pibt::push(RobotId root) {
   choices_.clear();
-  if (begin_choice(root).swap_partner != kNoRobot) return move(root);
   const CellId here = (*now_)[root];
+  if (is_narrow_[here] && begin_choice(root).swap_partner != kNoRobot) return move(root);
   std::uint64_t chance = random_.next();
   const auto draw = [&chance] {
     chance = std::rotr(chance, kChanceBits);
@@ -102,13 +115,14 @@ bool Pibt::push(RobotId root) {
   };
   ++search_;
   ends_.clear();
+  least_cost_ = UINT32_MAX;
+  if (taken_by_[here] == kNoRobot) add_end({kMostGainValue + kStayCost, here, here});
   for (const CellId cell : grid_.neighbours(here)) {
     const int gained = gain(root, here, cell);
     const std::uint32_t cost = gained > 0 ? kMostGainValue - kGainValue * static_cast<std::uint32_t>(gained)
                                           : kMostGainValue + kAwayCost;
     extend_row(here, kNoCell, here, cell, cost + draw());
   }
-  if (taken_by_[here] == kNoRobot) add_end({kMostGainValue + kStayCost, here, here});
   while (!ends_.empty()) {
     std::pop_heap(ends_.begin(), ends_.end(), std::greater<>());
     const RowEnd end = ends_.back();
@@ -118,11 +132,11 @@ bool Pibt::push(RobotId root) {
       return true;
     }
     if (reached_[end.cell].cost < end.cost) continue;  // by a cheaper row since
-    const RobotId robot = robot_at_[end.cell];
-    if (robot == kNoRobot || is_assigned(robot)) {
+    if (is_free(end.cell)) {
       for (CellId to = end.cell; to != here; to = reached_[to].from) assign(robot_at_[reached_[to].from], to);
       return true;
     }
+    const RobotId robot = robot_at_[end.cell];
     const std::uint32_t leaving =
         end.cost + kPushedCost + (end.cell == distances_.goal(robot) ? kPushedHomeCost : 0);
     for (const CellId cell : grid_.neighbours(end.cell)) {
@@ -136,19 +150,21 @@ bool Pibt::push(RobotId root) {
 /// The robot at `from`, which came from `before`, may go `to` the next cell; `root_cell` is where the row
 /// begins.
 void Pibt::extend_row(CellId root_cell, CellId before, CellId from, CellId to, std::uint32_t cost) {
+  ++cells_seen_;
   if (to == root_cell || taken_by_[to] != kNoRobot) return;
   if (before != kNoCell && is_turn(before, from, to)) cost += kTurnCost;
   if (const RobotId other = robot_at_[to]; other != kNoRobot && is_assigned(other)) {
     if (closes_ring(root_cell, to)) return;
     if (is_turn(from, to, (*next_)[other])) cost += kTurnCost;
   }
-  if (searched_[to] == search_ && reached_[to].cost <= cost) return;
+  if (cost >= least_cost_ || (searched_[to] == search_ && reached_[to].cost <= cost)) return;
   searched_[to] = search_;
   reached_[to] = {cost, to, from};
   add_end(reached_[to]);
 }
 
 void Pibt::add_end(const RowEnd& end) {
+  if (end.cell == end.from || is_free(end.cell)) least_cost_ = end.cost;
   ends_.push_back(end);
   std::push_heap(ends_.begin(), ends_.end(), std::greater<>());
 }
@@ -168,6 +184,7 @@ Pibt::Choice Pibt::begin_choice(RobotId robot) {
   constexpr unsigned kSecondBits = 3;
   constexpr auto kMostGain = static_cast<int>(kDearestMoveCost);
   const CellId here = (*now_)[robot];
+  cells_seen_ += kMaxCandidates;
   std::uint64_t ties = random_.next();
   Choice choice;
   choice.robot = robot;
@@ -249,7 +266,7 @@ void Pibt::pull_swap_partner(const Choice& choice) {
 /// [LC23], "swap_possible_and_required".
 RobotId Pibt::swap_partner(RobotId robot, CellId wanted) const {
   const CellId here = (*now_)[robot];
-  if (wanted == here) return kNoRobot;
+  if (wanted == here || side_steps(here, wanted).paths >= kWaysToPass) return kNoRobot;
   const RobotId opposite = robot_at_[wanted];
   if (opposite != kNoRobot && !is_assigned(opposite) && is_swap_required(robot, opposite, here, wanted) &&
       is_swap_possible(wanted, here)) {
@@ -283,7 +300,7 @@ Pibt::SideStep Pibt::side_steps(CellId pusher_cell, CellId puller_cell) const {
 bool Pibt::is_swap_required(RobotId pusher, RobotId puller, CellId pusher_cell, CellId puller_cell) const {
   while (distances_.is_nearer(pusher, pusher_cell, puller_cell)) {
     const SideStep steps = side_steps(pusher_cell, puller_cell);
-    if (steps.paths >= 2) return false;
+    if (steps.paths >= kWaysToPass) return false;
     if (steps.paths == 0) break;
     pusher_cell = std::exchange(puller_cell, steps.cell);
   }
@@ -297,7 +314,7 @@ bool Pibt::is_swap_possible(CellId pusher_cell, CellId puller_cell) const {
   const CellId begin = pusher_cell;
   while (puller_cell != begin) {
     const SideStep steps = side_steps(pusher_cell, puller_cell);
-    if (steps.paths >= 2) return true;
+    if (steps.paths >= kWaysToPass) return true;
     if (steps.paths == 0) return false;
     pusher_cell = std::exchange(puller_cell, steps.cell);
   }

@@ -65,6 +65,9 @@ class Pibt {
   StepOutcome make_step(const Configuration& now, std::span<const RobotId> order,
                         std::span<const StepConstraint> constraints, Configuration& next);
 
+  /// Cells that robots looked at so far, to go there or to push others there.
+  std::uint64_t cells_seen() const { return cells_seen_; }
+
  private:
   static constexpr std::size_t kMaxCandidates = 5;  ///< four neighbours and its own cell
 
@@ -97,6 +100,7 @@ class Pibt {
   bool push(RobotId root);
   void extend_row(CellId root_cell, CellId before, CellId from, CellId to, std::uint32_t cost);
   void add_end(const RowEnd& end);
+  bool is_free(CellId cell) const { return robot_at_[cell] == kNoRobot || is_assigned(robot_at_[cell]); }
   bool is_turn(CellId a, CellId b, CellId c) const;
   Choice begin_choice(RobotId robot);
   /// Reserves the next candidate that is free to take. False if none is left.
@@ -137,6 +141,9 @@ class Pibt {
   std::vector<RowEnd> reached_;          ///< by cell: the cheapest row that ends there
   std::vector<std::uint32_t> searched_;  ///< by cell: the search that reached it
   std::uint32_t search_ = 0;
+  std::uint64_t cells_seen_ = 0;
+  std::uint32_t least_cost_ = 0;  ///< of the rows so far whose end is free
+  std::vector<char> is_narrow_;   ///< by cell: whether some next cell has fewer than two ways on
 };
 
 }  // namespace sipplab

@@ -36,12 +36,12 @@ class LargeNeighbourhoodSearch {
  public:
   /// One thread for each planner.
   LargeNeighbourhoodSearch(const Instance& instance, const Solution& given, const PriorityOrder& order,
-                           const PlannerOptions& options, Planners planners)
+                           const PlannerOptions& options, Planners planners, Clock::time_point begin)
       : instance_(instance),
         options_(options),
         budget_(options.improve.value_or(ImproveBudget{})),
         stream_(Random(options.seed).next()),
-        begin_(Clock::now()) {
+        begin_(begin) {
     limits_.deadline = deadline_after(begin_, budget_.seconds);
     limits_.stop = options.stop;
     result_.log.objective = options.objective;
@@ -50,15 +50,15 @@ class LargeNeighbourhoodSearch {
     cost_ = cost_of(instance_, plan());
     note_progress(0);
     if (budget_.iterations > 0) tighten_all();
-    for (std::size_t i = 1; i < planners.size(); ++i) copy_to(*plans_[i]);
+    for (std::size_t i = 1; i < planners.size() && !limits_.is_over(); ++i) copy_to(*plans_[i]);
     find_fastest_ways(planners);
   }
 
   ImproveResult run() {
     const std::uint64_t& done = result_.log.iterations;
-    while (done < budget_.iterations && !instance_.agents.empty() && !is_optimal()) {
+    while (done < budget_.iterations && !instance_.agents.empty()) {
       result_.log.was_cut_short = limits_.is_over();
-      if (result_.log.was_cut_short) break;
+      if (result_.log.was_cut_short || is_optimal()) break;
       play_round(std::min(kIterationsPerRound, budget_.iterations - done));
     }
     note_progress(done);
@@ -114,7 +114,8 @@ class LargeNeighbourhoodSearch {
     }
   }
 
-  /// The fastest path of each robot alone; how early any path could be is found out meanwhile.
+  /// The fastest path of each robot alone, or the one that it has once time is over; how early any path could
+  /// be is found out meanwhile.
   void find_fastest_ways(Planners planners) {
     std::vector<std::unique_ptr<PartialPlan>> nobody;  // plans without robots, one for each thread
     for (SingleAgentPlanner* planner : planners) {
@@ -125,7 +126,7 @@ class LargeNeighbourhoodSearch {
     std::vector<double> solo_cells(instance_.agents.size());
     std::vector<SearchStatistics> work(planners.size());
     for_each_in_parallel(planners.size(), fastest_paths_.size(), [&](std::size_t worker, AgentIndex agent) {
-      Expected<Trajectory, PlanFailure> alone = nobody[worker]->find(agent, {}, work[worker]);
+      Expected<Trajectory, PlanFailure> alone = nobody[worker]->find(agent, limits_, work[worker]);
       fastest_paths_[agent] = alone ? std::move(*alone) : plan().trajectory(agent);
       fastest_s_[agent] = fastest_paths_[agent].arrival_s();
       solo_cells[agent] = length_cells(fastest_paths_[agent]);
@@ -200,12 +201,13 @@ class LargeNeighbourhoodSearch {
 
 ImproveResult improve(const Instance& instance, const Solution& given, const PriorityOrder& order,
                       const PlannerOptions& options) {
+  const Clock::time_point begin = Clock::now();
   std::vector<std::unique_ptr<SingleAgentPlanner>> planners;
   std::vector<SingleAgentPlanner*> workers;
   for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
     workers.push_back(planners.emplace_back(single_agent_planner(instance, options)).get());
   }
-  return LargeNeighbourhoodSearch(instance, given, order, options, workers).run();
+  return LargeNeighbourhoodSearch(instance, given, order, options, workers, begin).run();
 }
 
 }  // namespace sipplab

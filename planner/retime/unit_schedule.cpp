@@ -95,11 +95,13 @@ class VisitGraph {
   const Visits& visits_;
 };
 
+/// `motions`: memory.
 template <class Clock>
 Trajectory timed(const Clock& clock, const FreeGrid& grid, const Visits& visits,
-                 const std::vector<typename Clock::Time>& arrivals, VisitId here, double unit_move_s) {
-  Trajectory trajectory{grid.cell(visits[here].cell), {}};
-  std::vector<TimedMotion>& motions = trajectory.motions;
+                 const std::vector<typename Clock::Time>& arrivals, VisitId here, double unit_move_s,
+                 std::vector<TimedMotion>& motions) {
+  const Cell start = grid.cell(visits[here].cell);
+  motions.clear();
   Cell last_step{0, 0};
   for (VisitId next = visits[here].after; next != kNoVisit; here = std::exchange(next, visits[next].after)) {
     const Cell from = grid.cell(visits[here].cell);
@@ -115,11 +117,12 @@ Trajectory timed(const Clock& clock, const FreeGrid& grid, const Visits& visits,
     }
     // Different times of a plan differ by far more than rounding: a + b sqrt(2) is at least
     // 1 / (|a| + 2 |b|) away from 0.
-    if (waits) motions.push_back({trajectory.end_s(), clock.seconds(departure, unit_move_s), from, from});
-    motions.push_back({trajectory.end_s(), end_s, from, to});
+    const auto now_s = [&] { return motions.empty() ? 0 : motions.back().end_s; };
+    if (waits) motions.push_back({now_s(), clock.seconds(departure, unit_move_s), from, from});
+    motions.push_back({now_s(), end_s, from, to});
     last_step = step;
   }
-  return trajectory;
+  return {start, motions};
 }
 
 template <class Clock>
@@ -131,9 +134,10 @@ UnitSchedule schedule_by(const Clock& clock, const FreeGrid& grid, const Visits&
   schedule.arrivals_s.reserve(least.times.size());
   for (const auto& time : least.times) schedule.arrivals_s.push_back(clock.seconds(time, unit_move_s));
   schedule.solution.trajectories.reserve(visits.robots());
+  std::vector<TimedMotion> motions;
   for (RobotId robot = 0; robot < visits.robots(); ++robot) {
     schedule.solution.trajectories.push_back(
-        timed(clock, grid, visits, least.times, visits.first_of(robot), unit_move_s));
+        timed(clock, grid, visits, least.times, visits.first_of(robot), unit_move_s, motions));
   }
   return schedule;
 }

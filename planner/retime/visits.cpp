@@ -9,6 +9,11 @@ Visits::Visits(const std::vector<std::vector<CellId>>& steps, std::size_t cells)
   if (steps.empty()) return;
   std::vector<VisitId> last_at(cells, kNoVisit);
   std::vector<VisitId> last_of(steps.front().size(), kNoVisit);
+  std::size_t size = last_of.size();
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    for (RobotId robot = 0; robot < last_of.size(); ++robot) size += steps[i][robot] != steps[i - 1][robot];
+  }
+  visits_.reserve(size);
   for (const std::vector<CellId>& step : steps) {
     for (RobotId robot = 0; robot < step.size(); ++robot) {
       const CellId cell = step[robot];

@@ -49,14 +49,14 @@ std::vector<Route> routes_of(const Visits& visits, const std::vector<std::int64_
 class UnitImprover {
  public:
   UnitImprover(const Instance& instance, const PlannerOptions& options, const FreeGrid& grid,
-               SharedDistances& distances)
+               SharedDistances& distances, Clock::time_point begin)
       : instance_(instance),
         options_(options),
         budget_(options.improve.value_or(ImproveBudget{})),
         reach_cells_(std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0)),
         unit_move_s_(1 / instance.agents.front().speed_cells_per_s),
         stream_(Random(options.seed).next()),
-        begin_(Clock::now()),
+        begin_(begin),
         grid_(grid),
         moves_(grid, reach_cells_),
         distances_(distances) {
@@ -243,6 +243,7 @@ class UnitImprover {
 std::optional<UnitImprovement> improve_unit_moves(const Instance& instance, const Solution& given,
                                                   const PlannerOptions& options,
                                                   std::uint64_t most_expansions) {
+  const Clock::time_point begin = Clock::now();
   if (instance.agents.empty() || find_beyond_complete(instance, options.rules)) return std::nullopt;
   const FreeGrid grid(instance.map);
   std::optional<Visits> visits = unit_visits(instance, grid, given);
@@ -254,7 +255,7 @@ std::optional<UnitImprovement> improve_unit_moves(const Instance& instance, cons
     goals.push_back(grid.id(agent.goal));
   }
   SharedDistances distances(grid, starts, goals);
-  UnitImprover improver(instance, options, grid, distances);
+  UnitImprover improver(instance, options, grid, distances, begin);
   const PlanCost before{flowtime_s(given), makespan_s(given)};
   if (!improver.begin(std::move(*visits), before)) return std::nullopt;
   improver.run(most_expansions);

@@ -29,7 +29,7 @@ std::size_t Timetable::first_from(CellId cell, Tick time) const {
 }
 
 void Timetable::insert(RobotId robot, Route route) {
-  PLANNER_ASSERT(routes_[robot].empty() && !route.empty());
+  PLANNER_ASSERT(routes_[robot].empty() && !route.empty() && fits(route));
   for (std::size_t stop = 0; stop < route.size(); ++stop) {
     Stay added = stay(route, stop);
     added.robot = robot;

@@ -190,6 +190,18 @@ const PropertyRoom room("budgets", [] {
               result.plan.planning_seconds + result.improvement->log.curve.back().seconds);
   });
 
+  passed &= property("improvement without any time left searches no more", [] {
+    PlanCase plan_case = any_moving_case();
+    PlannerOptions& options = plan_case.options;
+    options.longer_ssi_s.clear();
+    options.improve = ImproveBudget{};
+    options.improve->seconds = 0;
+    const SolveResult result = solve(plan_case.instance, options);
+    RC_PRE(result.improvement.has_value());
+    RC_ASSERT(result.improvement->statistics.expansions == 0u);
+    RC_ASSERT(result.improvement->log.was_cut_short);
+  });
+
   passed &= property("a request to stop, or a time limit that is over, ends every phase at once", [] {
     PlanCase plan_case = any_limited_case();
     PlannerOptions& options = plan_case.options;
