@@ -22,9 +22,8 @@ constexpr std::size_t kMaxSearchBytes = std::size_t{2} << 30;
 constexpr double kLargestRadiusCells = 0.5;
 
 /// Plans from different seeds, of which the cheapest is kept: at most so many, and no more once robots have
-/// looked at so many cells (a tenth of a second or less; 950 robots on the empty map of 32 x 32 cells and
-/// 1,000 in warehouse-10-20-10-2-1 plan once, 400 there three times). (Flowtime of the paper's warehouse with
-/// 192 robots, 4, 8, 16, 24 plans: 8,790, 8,615, 8,514, 8,484 s.)
+/// looked at so many cells (950 robots on the empty map of 32 x 32 cells and 1,000 in warehouse-10-20-10-2-1
+/// plan once, 400 there three times).
 constexpr int kMostPlans = 24;
 constexpr std::uint64_t kMostCellsSeen = 1'800'000;
 /// Every other plan has cheap rows of pushes (LacamLimits::push_cheaply): the first one from this share of

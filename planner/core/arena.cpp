@@ -16,7 +16,7 @@ namespace {
 /// kLargestChunk.
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
 constexpr std::size_t kLargestChunk = std::size_t{8} << 20;
-/// Bytes given back that are kept for later; more goes back to the system.
+/// Bytes given back that are kept for later; of more, chunks larger than a huge page go back to the system.
 constexpr std::size_t kMostKept = std::size_t{256} << 20;
 constexpr std::size_t kSmallestPiece = 64;
 

@@ -91,6 +91,14 @@ PlanCase any_moving_case() {
   return plan_case;
 }
 
+/// ... and are to be improved, after one start-safe interval.
+PlanCase any_improved_case() {
+  PlanCase plan_case = any_moving_case();
+  plan_case.options.longer_ssi_s.clear();
+  plan_case.options.improve = ImproveBudget{};
+  return plan_case;
+}
+
 const PropertyRoom room("budgets", [] {
   ticking = true;
   bool passed = true;
@@ -167,10 +175,8 @@ const PropertyRoom room("budgets", [] {
   });
 
   passed &= property("improvement for so many seconds ends then", [] {
-    PlanCase plan_case = any_moving_case();
+    PlanCase plan_case = any_improved_case();
     PlannerOptions& options = plan_case.options;
-    options.longer_ssi_s.clear();
-    options.improve = ImproveBudget{};
     options.improve->seconds = *rc::gen::element(1.0, 10.0, 100.0);
     SolveResult result;
     double planning_s = 0;
@@ -191,10 +197,8 @@ const PropertyRoom room("budgets", [] {
   });
 
   passed &= property("improvement without any time left searches no more", [] {
-    PlanCase plan_case = any_moving_case();
+    PlanCase plan_case = any_improved_case();
     PlannerOptions& options = plan_case.options;
-    options.longer_ssi_s.clear();
-    options.improve = ImproveBudget{};
     options.improve->seconds = 0;
     const SolveResult result = solve(plan_case.instance, options);
     RC_PRE(result.improvement.has_value());
@@ -302,10 +306,8 @@ const PropertyRoom room("budgets", [] {
   });
 
   passed &= property("work of improvement: each robot alone, then iterations", [] {
-    PlanCase plan_case = any_moving_case();
+    PlanCase plan_case = any_improved_case();
     PlannerOptions& options = plan_case.options;
-    options.longer_ssi_s.clear();
-    options.improve = ImproveBudget{};
     options.improve->iterations = 0;
     const SolveResult none = solve(plan_case.instance, options);
     RC_PRE(none.improvement.has_value());

@@ -14,6 +14,7 @@
 #include "db/statistics/change_points.hpp"
 #include "db/statistics/statistics.hpp"
 #include "property_tests/support/histories.hpp"
+#include "property_tests/support/plain_statistics.hpp"
 #include "property_tests/support/property.hpp"
 
 namespace sipplab::db::statistics::statistics_laws {
@@ -34,17 +35,6 @@ std::vector<double> any_values(int least, int most, int largest) {
     values.push_back(static_cast<double>(any_whole(-largest, largest)) / 2);
   }
   return values;
-}
-
-/// P(X <= k) of n fair coins, by Pascal's triangle.
-double binomial_tail(std::size_t k, std::size_t n) {
-  std::vector<double> row = {1};
-  for (std::size_t coin = 0; coin < n; ++coin) {
-    row.push_back(0);
-    for (std::size_t i = row.size(); i-- > 1;) row[i] = (row[i] + row[i - 1]) / 2;
-    row[0] /= 2;
-  }
-  return std::accumulate(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(k) + 1, 0.0);
 }
 
 // --- tests of signs and ranks -------------------------------------------------------
@@ -165,8 +155,8 @@ void signs_are_counted_out() {
 void coins_are_counted_out() {
   const auto wins = static_cast<std::uint64_t>(any_whole(0, 40));
   const auto losses = static_cast<std::uint64_t>(any_whole(0, 40));
-  const std::uint64_t fewer = std::min(wins, losses);
-  const double expected = wins == losses ? 1 : std::min(1.0, 2 * binomial_tail(fewer, wins + losses));
+  const double expected =
+      wins == losses ? 1 : std::min(1.0, 2 * bench::at_least(std::max(wins, losses), wins + losses));
   if (wins + losses == 0) {
     RC_ASSERT(!sign_test(wins, losses).has_value());
   } else {
