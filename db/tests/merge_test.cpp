@@ -324,8 +324,9 @@ TEST_F(Merging, a_file_that_cannot_be_merged_is_named_and_the_others_are) {
 }
 
 TEST_F(Merging, a_full_disk_keeps_what_was_written_before) {
+  constexpr int kVersions = 12;
   std::vector<std::filesystem::path> sources;
-  for (int number = 1; number <= 20; ++number) {
+  for (int number = 1; number <= kVersions; ++number) {
     sources.push_back(folder / ("version" + std::to_string(number) + ".db"));
     record_version(sources.back(), {number, 1, 8});
     pad(sources.back(), number < 5 ? 7 : 9);  // some gathered, then each at once
@@ -335,17 +336,17 @@ TEST_F(Merging, a_full_disk_keeps_what_was_written_before) {
     must(database.connection().execute("PRAGMA max_page_count = " + std::to_string(megabytes * 256),
                                        "limiting"));
   };
-  limit_pages(100);
+  limit_pages(60);
   const auto full = merge_into(database, sources);
   ASSERT_FALSE(full);
   EXPECT_EQ(full.error().kind, ErrorKind::kFull) << full.error().message;
   const std::string kept = ask(file, "SELECT count(*) FROM run");
   EXPECT_GT(std::stoi(kept), 0);
-  EXPECT_LT(std::stoi(kept), 20);
+  EXPECT_LT(std::stoi(kept), kVersions);
   EXPECT_EQ(ask(file, "SELECT count(*) FROM result"), kept + "0");
   test::expect_sound(file);
   limit_pages(1000);
-  EXPECT_EQ(must(merge_into(database, sources)).rows_of("run"), 20 - std::stoi(kept));
+  EXPECT_EQ(must(merge_into(database, sources)).rows_of("run"), kVersions - std::stoi(kept));
   EXPECT_TRUE(examine(database, {}).sound());
 }
 

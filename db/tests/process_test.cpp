@@ -78,7 +78,7 @@ int record_without_end(RunRecorder& recorder, std::int64_t first, int results, i
 }
 
 TEST_F(Processes, a_killed_sweep_keeps_what_was_committed_and_is_resumed) {
-  const int kills = from_environment("SIPPLAB_TEST_KILLS", 50);
+  const int kills = from_environment("SIPPLAB_TEST_KILLS", 50 / SIPPLAB_SHARE_OF_CASES);
   constexpr int kResults = 40;
   Random random{1};
   std::int64_t finished = 0;
@@ -167,7 +167,7 @@ TEST_F(Processes, eight_writers_and_two_readers_never_see_a_lock) {
 }
 
 TEST_F(Processes, a_fresh_file_is_made_by_eight_processes_at_once) {
-  constexpr int kRounds = 25;
+  constexpr int kRounds = 25 / SIPPLAB_SHARE_OF_CASES;
   for (int round = 0; round < kRounds; ++round) {
     const auto fresh = folder / fmt::format("{}.db", round);
     std::array<int, 2> gate{};

@@ -82,7 +82,7 @@ CompleteResult plan_complete(const Instance& instance, const PlannerOptions& opt
   limits.stop = options.stop;
   const double unit_move_s = instance.agents.empty() ? 1 : 1 / instance.agents.front().speed_cells_per_s;
   const double reach_cells = std::clamp(2 * largest_radius_cells(instance), kMinRadiusCells, 1.0);
-  Lacam lacam(grid, starts, goals);
+  Lacam lacam(grid, starts, goals, limits);
   Random seeds(options.seed);
   CompleteResult result;
   const double no_less = options.objective.of(static_cast<double>(lacam.least_moves()) * unit_move_s,

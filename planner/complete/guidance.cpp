@@ -119,11 +119,12 @@ class Traffic {
 
 }  // namespace
 
-MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals) {
+MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals,
+                        const TimeLimits& limits) {
   Traffic traffic(grid);
   std::vector<CellIds> paths(starts.size());
   for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t robot = 0; robot < starts.size(); ++robot) {
+    for (std::size_t robot = 0; robot < starts.size() && !limits.is_over(); ++robot) {
       traffic.count(paths[robot], -1);
       paths[robot] = traffic.choose(starts[robot], goals[robot]);
       traffic.count(paths[robot], 1);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner/complete/goal_distances.hpp"
+#include "sipplab/single_agent_planner.hpp"
 
 namespace sipplab {
 
@@ -27,8 +28,10 @@ inline constexpr std::uint32_t kDearestMoveCost = 40;
 
 /// What moves cost after each robot has chosen a path around the traffic of all others: a path against a move
 /// adds a tenth of a step. O(robots x cells x log cells) at worst; paths in little traffic see few cells.
+/// Robots that have not chosen when the limits are over do not count.
 /// REQUIRES: goals can be reached.
-MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals);
+MoveCosts traffic_costs(const FreeGrid& grid, const CellIds& starts, const CellIds& goals,
+                        const TimeLimits& limits);
 
 /// Costs of the cheapest paths to each robot's goal, found as far as they are asked for: Dijkstra from the
 /// goal, with buckets (Dial 1969), which all robots share. Neighbours differ by kDearestMoveCost at most, so

@@ -59,23 +59,6 @@ std::uint64_t hash_of(const Configuration& cells) {
   return hash;
 }
 
-bool is_late(const LacamLimits& limits) {
-  return (limits.stop != nullptr && limits.stop->load(std::memory_order_relaxed)) ||
-         (limits.deadline && std::chrono::steady_clock::now() >= *limits.deadline);
-}
-
-/// Unit moves from each start to its goal; none if some goal cannot be reached.
-std::optional<std::vector<std::uint32_t>> path_lengths(GoalDistances& distances,
-                                                       const Configuration& starts) {
-  std::vector<std::uint32_t> lengths;
-  for (RobotId robot = 0; robot < starts.size(); ++robot) {
-    const auto length = distances.first_distance(robot, starts[robot]);
-    if (!length) return std::nullopt;
-    lengths.push_back(*length);
-  }
-  return lengths;
-}
-
 /// Steps. In a crowd robots at the rim stay where they belong for so long before others push
 /// them, in one search and in the next by turns. On the empty map of 32 x 32 cells the first is
 /// faster with 950 robots, the second with 1,000; 100 is too many with both.
@@ -187,7 +170,7 @@ class Search {
   }
 
   bool is_at_limit(const LacamLimits& limits) const {
-    return steps_tried_ >= limits.max_steps || memory_bytes_ > limits.max_memory_bytes || is_late(limits);
+    return steps_tried_ >= limits.max_steps || memory_bytes_ > limits.max_memory_bytes || limits.is_over();
   }
 
   /// Puts the robots of a configuration in the order in which they choose.
@@ -283,15 +266,19 @@ class Search {
 
 }  // namespace
 
-Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals)
+Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals, const TimeLimits& limits)
     : grid_(grid), starts_(std::move(starts)), goals_(std::move(goals)), distances_(grid, goals_) {
-  const auto lengths = path_lengths(distances_, starts_);
-  is_solvable_ = lengths.has_value();
-  if (!is_solvable_ || starts_.empty()) return;
-  longest_ = *std::max_element(lengths->begin(), lengths->end());
-  all_lengths_ = std::accumulate(lengths->begin(), lengths->end(), std::uint64_t{0});
-  order_.robots = choosing_order(grid_, goals_, *lengths, is_crowded());
-  guide_.emplace(grid_, goals_, traffic_costs(grid_, starts_, goals_));
+  std::vector<std::uint32_t> lengths;
+  for (RobotId robot = 0; robot < starts_.size() && !known_; ++robot) {
+    const auto length = distances_.first_distance(robot, starts_[robot]);
+    lengths.push_back(length.value_or(0));
+    if (!length || limits.is_over()) known_ = length ? LacamStatus::kLimit : LacamStatus::kUnsolvable;
+  }
+  if (known_ || starts_.empty()) return;
+  longest_ = *std::max_element(lengths.begin(), lengths.end());
+  all_lengths_ = std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0});
+  order_.robots = choosing_order(grid_, goals_, lengths, is_crowded());
+  guide_.emplace(grid_, goals_, traffic_costs(grid_, starts_, goals_, limits));
 }
 
 bool Lacam::is_crowded() const {
@@ -300,8 +287,8 @@ bool Lacam::is_crowded() const {
 
 LacamResult Lacam::search(std::uint64_t seed, const LacamLimits& limits) {
   LacamResult result;
-  if (!is_solvable_) {
-    result.status = LacamStatus::kUnsolvable;
+  if (known_) {
+    result.status = *known_;
     return result;
   }
   Random seeds(seed);
@@ -323,7 +310,7 @@ LacamResult Lacam::search(std::uint64_t seed, const LacamLimits& limits) {
     const bool impatient = result.status == LacamStatus::kLimit && result.steps_tried == patience;
     result.steps_tried += before.steps_tried;
     result.cells_seen += before.cells_seen;
-    if (!impatient || patience == left || is_late(limits)) return result;
+    if (!impatient || patience == left || limits.is_over()) return result;
     patience *= 2;
   }
 }

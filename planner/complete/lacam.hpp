@@ -2,8 +2,6 @@
 // [LC22]: Okumura, AAAI 2023; [LC23]: Okumura, IJCAI 2023.
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,14 +9,13 @@
 #include "planner/complete/goal_distances.hpp"
 #include "planner/complete/guidance.hpp"
 #include "planner/complete/pibt.hpp"
+#include "sipplab/single_agent_planner.hpp"
 
 namespace sipplab {
 
-struct LacamLimits {
+struct LacamLimits : TimeLimits {
   std::uint64_t max_steps = UINT64_MAX;  ///< steps that PIBT is asked for
   std::size_t max_memory_bytes = SIZE_MAX;
-  std::optional<std::chrono::steady_clock::time_point> deadline;
-  const std::atomic<bool>* stop = nullptr;  ///< set from outside: ends the search like the deadline
   /// Steps that a first search may take before another one with other ties begins: as multiples of the
   /// longest path, and at least so many. Times of search have a long tail: on the empty map of 32 x 32 cells
   /// with 950 robots searches take four to ten times the longest path, some a hundred times. Each next
@@ -53,11 +50,12 @@ struct ChoosingOrder {
 
 class Lacam {
  public:
-  /// The grid must outlive this. REQUIRES: starts differ, goals differ, as many as each other.
-  Lacam(const FreeGrid& grid, Configuration starts, Configuration goals);
+  /// The grid must outlive this. O(robots x cells log cells) at worst; once the limits are over no plan will
+  /// be found. REQUIRES: starts differ, goals differ, as many as each other.
+  Lacam(const FreeGrid& grid, Configuration starts, Configuration goals, const TimeLimits& limits = {});
 
   /// Paths of all robots from starts to goals such that each step keeps (1) and (2) of
-  /// Pibt::make_step. Without limits:
+  /// Pibt::make_step. Without limits, those of the set-up included:
   ///  (1) solved exactly when there are such paths;
   ///  (2) the same calls in the same sequence give the same results.
   ///
@@ -82,7 +80,8 @@ class Lacam {
   ChoosingOrder order_;
   std::uint32_t longest_ = 0;  ///< steps of the longest path
   std::uint64_t all_lengths_ = 0;
-  bool is_solvable_ = true;  ///< each goal can be reached
+  /// That of every search, if some goal cannot be reached, or there was no time to find out.
+  std::optional<LacamStatus> known_;
 };
 
 }  // namespace sipplab

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
@@ -395,6 +396,12 @@ const PropertyRoom room("complete_planning", [] {
     limits.max_memory_bytes = 0;
     const LacamResult forgetful = Lacam(cells.grid, cells.starts, cells.goals).search(1, limits);
     RC_ASSERT(forgetful.status == (cells.starts == cells.goals ? LacamStatus::kSolved : LacamStatus::kLimit));
+    const std::atomic<bool> stop{true};
+    TimeLimits over;
+    over.stop = &stop;
+    const LacamResult late = Lacam(cells.grid, cells.starts, cells.goals, over).search(1, {});
+    RC_ASSERT(late.status == (cells.starts.empty() ? LacamStatus::kSolved : LacamStatus::kLimit));
+    RC_ASSERT(late.steps_tried == 0u);
   });
 
   passed &= property("Lacam::search: of two robots at a junction the one with the longer way goes first", [] {

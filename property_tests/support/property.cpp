@@ -244,7 +244,8 @@ int run_room(std::span<const char* const> arguments) {
   return room->second.run() ? 0 : 1;
 }
 
-bool run_property(std::optional<int> cases, const std::string& title, const rc::detail::Property& property) {
+bool property(const std::string& title, const std::function<void()>& testable, std::optional<int> cases) {
+  const rc::detail::Property checked = rc::detail::toProperty(testable);
   const auto configuration = configured(cases ? *cases : rooms().at(current_room).cases);
   const auto reproduce = configuration.reproduce.find(title);
   if (!configuration.reproduce.empty()) {
@@ -253,7 +254,7 @@ bool run_property(std::optional<int> cases, const std::string& title, const rc::
     met_reproduced = true;
   }
   std::cerr << "\n- " << title << '\n';
-  if (!configuration.reproduce.empty()) return reproduce_failure(property, reproduce->second);
+  if (!configuration.reproduce.empty()) return reproduce_failure(checked, reproduce->second);
 
   db::PropertyRun record;
   record.uuid = db::new_uuid();
@@ -269,7 +270,7 @@ bool run_property(std::optional<int> cases, const std::string& title, const rc::
   rc::detail::TestMetadata metadata;
   metadata.id = title;
   metadata.description = title;
-  const auto result = rc::detail::checkProperty(property, metadata, configuration.testParams, tally, {});
+  const auto result = rc::detail::checkProperty(checked, metadata, configuration.testParams, tally, {});
   const auto elapsed = std::chrono::steady_clock::now() - begin;
   record.wall_time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count();
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/complete/lacam.hpp"
@@ -69,12 +70,17 @@ TEST(TrafficCosts, APathAddsATenthOfAStepToMovesAgainstIt) {
     starts.push_back(robot);
     goals.push_back(10 + robot);
   }
-  const MoveCosts costs = traffic_costs(grid, starts, goals);
+  const MoveCosts costs = traffic_costs(grid, starts, goals, {});
   ASSERT_EQ(grid.neighbours(9)[0], 10U);
   EXPECT_EQ(costs[9][0], kFreeMoveCost);
   EXPECT_EQ(costs[10][1], 2 * kFreeMoveCost);  // against all ten
   EXPECT_EQ(costs[1][1], kFreeMoveCost);       // against the first, a tenth: rounded
   EXPECT_EQ(costs[5][1], 6U);                  // against five
+
+  const std::atomic<bool> stop{true};
+  TimeLimits over;
+  over.stop = &stop;
+  EXPECT_EQ(traffic_costs(grid, starts, goals, over)[10][1], kFreeMoveCost);
 }
 
 TEST(TrafficCosts, PathsGoAroundTrafficTheOtherWay) {
@@ -91,7 +97,7 @@ TEST(TrafficCosts, PathsGoAroundTrafficTheOtherWay) {
     starts.push_back(grid.id({to_the_right ? 0 : 11, 2}));
     goals.push_back(grid.id({to_the_right ? 11 : 0, 2}));
   }
-  const MoveCosts costs = traffic_costs(grid, starts, goals);
+  const MoveCosts costs = traffic_costs(grid, starts, goals, {});
   const auto cost = [&](Cell from, Cell to) {
     const auto neighbours = grid.neighbours(grid.id(from));
     const auto found = std::find(neighbours.begin(), neighbours.end(), grid.id(to));

@@ -33,21 +33,25 @@ struct SearchStatistics {
   }
 };
 
-/// What one search may spend.
-struct SearchLimits {
-  std::uint64_t max_expansions = UINT64_MAX;
+/// Until when work may go on.
+struct TimeLimits {
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  /// Set from outside, for example by a signal: ends the search like a deadline.
+  /// Set from outside, for example by a signal: ends the work like a deadline.
   const std::atomic<bool>* stop = nullptr;
-  /// Later arrivals are of no use: a search may end with kNoPath as soon as its heuristic rules out an
-  /// arrival by this time.
-  double latest_arrival_s = kForever;
 
   /// Whether the deadline has passed or `stop` is set.
   bool is_over() const {
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
            (deadline && std::chrono::steady_clock::now() >= *deadline);
   }
+};
+
+/// What one search may spend.
+struct SearchLimits : TimeLimits {
+  std::uint64_t max_expansions = UINT64_MAX;
+  /// Later arrivals are of no use: a search may end with kNoPath as soon as its heuristic rules out an
+  /// arrival by this time.
+  double latest_arrival_s = kForever;
 };
 
 /// The space-time that planned robots, dynamic obstacles and protected starts occupy.
