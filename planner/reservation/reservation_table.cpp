@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "planner/geometry/collision_interval.hpp"
 #include "sipplab/error.hpp"
@@ -215,8 +216,11 @@ ReservationTable::DiskId ReservationTable::blocker(const Move& move, double radi
   NearFilter filter(move.velocity * slices_.slice_s(), radius_cells + filter_margin_);
   DiskId first = kNoDisk;
   double first_s = kForever;
+  // Of those met together, such as a robot at its start and the guard of that start, the one that stays.
   const auto key = [&](DiskId id) {
-    return std::tuple(disks_[id].begin_s, disks_[id].from.x, disks_[id].from.y);
+    const MovingDisk& disk = disks_[id];
+    const auto [from, to] = std::pair(disk.from, disk.path.to);
+    return std::tuple(disk.begin_s, -disk.end_s, from.x, from.y, to.x, to.y, disk.radius);
   };
   walk(
       move, departure_s, splits_of(move), filter, departure_s, departure_s + move.duration,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <ostream>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -188,6 +189,7 @@ class Filled {
   }
 
   double largest_radius() const { return askers_.max_radius_cells; }
+  const Askers& askers() const { return askers_; }
   const GridMap& map() const { return map_; }
   ReservationTable& table() { return table_; }
   const PlainTable& twin() const { return twin_; }
@@ -307,9 +309,17 @@ std::pair<int, int> is_the_earliest_safe(Filled& filled, const std::vector<Query
   return {found, given_up};
 }
 
-/// Of all disks in the way at this departure the one that is met first, or one that is likely to be. Returns
-/// how many moves are blocked.
+/// Of all disks in the way at this departure the one that is met first, or one that is likely to be; of those
+/// met together the same one in whatever order they were added. Returns how many moves are blocked.
 int is_the_first_in_the_way(Filled& filled, const std::vector<Query>& queries) {
+  ReservationTable reversed(filled.map(), filled.askers());
+  const std::vector<MovingDisk>& disks = filled.twin().disks;
+  std::for_each(disks.rbegin(), disks.rend(), [&](const MovingDisk& disk) { reversed.add(disk); });
+  const auto what = [](const ReservationTable& table, ReservationTable::DiskId id) {
+    const MovingDisk disk = id == ReservationTable::kNoDisk ? MovingDisk{} : table.disk(id);
+    const auto [from, to] = std::pair(disk.path.from, disk.path.to);
+    return std::tuple(disk.begin_s, disk.end_s, from.x, from.y, to.x, to.y, disk.radius);
+  };
   int blocked = 0;
   auto likely = ReservationTable::kNoDisk;
   for (const Query& query : posed(queries, filled)) {
@@ -326,6 +336,8 @@ int is_the_first_in_the_way(Filled& filled, const std::vector<Query>& queries) {
     };
     const auto first = filled.table().blocker(move, query.radius, query.from_s, ReservationTable::kNoDisk);
     RC_ASSERT(met_s(first) == first_s);
+    const auto other = reversed.blocker(move, query.radius, query.from_s, ReservationTable::kNoDisk);
+    RC_ASSERT(what(filled.table(), first) == what(reversed, other));
     const auto found = filled.table().blocker(move, query.radius, query.from_s, likely);
     RC_ASSERT(found == (met_s(likely) < kForever ? likely : first));
     if (first != ReservationTable::kNoDisk) likely = first;
