@@ -278,7 +278,9 @@ Lacam::Lacam(const FreeGrid& grid, Configuration starts, Configuration goals, co
   longest_ = *std::max_element(lengths.begin(), lengths.end());
   all_lengths_ = std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0});
   order_.robots = choosing_order(grid_, goals_, lengths, is_crowded());
-  guide_.emplace(grid_, goals_, traffic_costs(grid_, starts_, goals_, limits));
+  const MoveCosts costs = traffic_costs(grid_, starts_, goals_, limits);
+  if (limits.is_over()) known_ = LacamStatus::kLimit;
+  if (!known_) guide_.emplace(grid_, goals_, costs);
 }
 
 bool Lacam::is_crowded() const {

@@ -244,7 +244,7 @@ int run_room(std::span<const char* const> arguments) {
   return room->second.run() ? 0 : 1;
 }
 
-bool property(const std::string& title, const std::function<void()>& testable, std::optional<int> cases) {
+bool run_property(const std::string& title, const std::function<void()>& testable, std::optional<int> cases) {
   const rc::detail::Property checked = rc::detail::toProperty(testable);
   const auto configuration = configured(cases ? *cases : rooms().at(current_room).cases);
   const auto reproduce = configuration.reproduce.find(title);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "planner/io/plan_case.hpp"
@@ -31,6 +32,9 @@ class PropertyRoom {
 /// (bench/campaigns/replay.hpp) if there is no such room, 2 for anything but one name.
 int run_room(std::span<const char* const> arguments);
 
+/// Use property() below. Not a template, so that rapidcheck's machinery is compiled once.
+bool run_property(const std::string& title, const std::function<void()>& testable, std::optional<int> cases);
+
 /// Checks a property with the parameters of RC_PARAMS and prints how it went: cases,
 /// the share of each class, and for a failure the smallest counterexample with the
 /// RC_PARAMS that lead to it. True when it held.
@@ -42,10 +46,13 @@ int run_room(std::span<const char* const> arguments);
 /// nothing is drawn or logged, and properties that it does not name hold. A room that has
 /// none of those named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
 ///
-/// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty. Not a template, so that
-/// rapidcheck's machinery is compiled once.
-bool property(const std::string& title, const std::function<void()>& testable,
-              std::optional<int> cases = std::nullopt);
+/// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty.
+template <class Testable>
+bool property(const std::string& title, Testable testable, std::optional<int> cases = std::nullopt) {
+  static_assert(std::is_void_v<std::invoke_result_t<Testable&>>,
+                "a property asserts; what it returns is lost");
+  return run_property(title, std::move(testable), cases);
+}
 
 /// What `make` draws, at full size from the first case on: a hundred cases say as much as the last hundred of
 /// a thousand.
