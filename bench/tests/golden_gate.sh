@@ -114,11 +114,16 @@ expect 5 compare "$base" "$head" --db gate.db --exact --json
 says '"verdict": "inconclusive"'
 python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
 
-# Worse plans in every cell: seen over all of them, whatever is expected.
+# Worse plans in every cell: seen over all of them, whatever is expected. Twice the instructions as well.
 again=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --any-angle --connectedness 2 --count 12)
 expect 0 "${again[@]}" --db plans.db
 expect 0 "${again[@]}" --db plans.db
 plans() { sqlite3 plans.db "SELECT uuid FROM run ORDER BY id LIMIT 1 OFFSET $1"; }
+sqlite3 plans.db "UPDATE result SET instructions = 1000 + position;
+  UPDATE result SET instructions = 2 * instructions WHERE cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
+expect 1 compare "$(plans 0)" "$(plans 1)" --db plans.db
+says '^REGRESSED: instructions \+100.0 % \(95 %: \+100.0 to \+100.0\); plans unchanged; flowtime \+0.0 %$'
+sqlite3 plans.db "UPDATE result SET instructions = 1000"
 sqlite3 plans.db "UPDATE result SET plan_hash = 2 WHERE status = 0 AND position = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
 expect 0 compare "$(plans 0)" "$(plans 1)" --db plans.db
 says '^CHANGED: [0-9]+ of 48 plannings changed; flowtime \+0.0 %'
