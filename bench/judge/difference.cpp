@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "bench/judge/change.hpp"
 #include "bench/judge/evidence.hpp"
 #include "db/statistics/statistics.hpp"
 
@@ -21,6 +22,7 @@ std::optional<double> pair_of(const Metric& metric, const db::PairedCell& cell,
   const double base = metric.value(result.base);
   const double head = metric.value(result.head);
   if (metric.test == Test::kSigns) return base - head;
+  if (metric.of_work && (is_cut_short(result.base) || is_cut_short(result.head))) return std::nullopt;
   const bool comparable =
       metric.of_machine ? cell.same_machine : solved(result.base) * solved(result.head) > 0;
   if (!comparable || base <= 0 || head <= 0) return std::nullopt;
@@ -104,17 +106,20 @@ const Metric kExpansions = {.name = "expansions",
                             .test = Test::kRanks,
                             .judges = true,
                             .judges_pooled = true,
-                            .value = [](const db::ResultRow& row) { return count(row.expansions); }};
+                            .value = [](const db::ResultRow& row) { return count(row.expansions); },
+                            .of_work = true};
 const Metric kGenerations = {.name = "generations",
                              .kind = db::MetricKind::kCounts,
                              .test = Test::kRanks,
                              .judges_pooled = true,
-                             .value = [](const db::ResultRow& row) { return count(row.generations); }};
+                             .value = [](const db::ResultRow& row) { return count(row.generations); },
+                             .of_work = true};
 const Metric kTries = {.name = "tries",
                        .kind = db::MetricKind::kCounts,
                        .test = Test::kRanks,
                        .judges_pooled = true,
-                       .value = [](const db::ResultRow& row) { return count(row.tries); }};
+                       .value = [](const db::ResultRow& row) { return count(row.tries); },
+                       .of_work = true};
 const Metric kInstructions = {.name = "instructions",
                               .kind = db::MetricKind::kTime,
                               .test = Test::kRanks,
@@ -123,7 +128,8 @@ const Metric kInstructions = {.name = "instructions",
                                   [](const db::ResultRow& row) {
                                     return count(static_cast<std::uint64_t>(row.instructions.value_or(0)));
                                   },
-                              .of_machine = true};
+                              .of_machine = true,
+                              .of_work = true};
 const Metric kMemory = {.name = "peak memory",
                         .kind = db::MetricKind::kMemory,
                         .value =

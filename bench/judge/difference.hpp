@@ -52,6 +52,7 @@ struct Metric {
   /// What one planning gave; 0 and less has no logarithm. None: the pairs are measured elsewhere.
   double (*value)(const db::ResultRow& row) = nullptr;
   bool of_machine = false;  ///< compared on one machine alone, and of unsolved plannings too
+  bool of_work = false;  ///< not compared where the clock cut a side short: it says how fast the machine was
 };
 
 extern const Metric kSuccess;

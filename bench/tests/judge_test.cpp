@@ -320,6 +320,22 @@ TEST(Judgement, MoreWorkForTheSamePlansIsARegression) {
       << result.all.reason;
 }
 
+TEST(Judgement, WorkThatTheClockCutShortIsNotCompared) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  for (db::PairedResult& result : cells[0].results) {
+    result.base.instructions = 1000;
+    result.head.instructions = 2000;
+    result.head.expansions = 20;
+  }
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kRegressed);
+  for (db::PairedResult& result : cells[0].results) result.head.limit = "time";
+  const Judgement judgement = judgement_of(cells);
+  EXPECT_EQ(judgement.all.verdict, Verdict::kSame) << judgement.all.reason;
+  EXPECT_TRUE(row(judgement, kInstructions, std::nullopt).pairs.empty());
+  EXPECT_TRUE(row(judgement, kExpansions, std::nullopt).pairs.empty());
+  EXPECT_EQ(row(judgement, kFlowtime, std::nullopt).pairs.size(), 20U);
+}
+
 TEST(Judgement, MemoryOfTwoProcessesInformsAlone) {
   std::vector<db::PairedCell> cells = {equal_cell(20)};
   for (db::PairedResult& result : cells[0].results) {

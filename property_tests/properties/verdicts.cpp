@@ -223,6 +223,8 @@ std::map<std::string, double> pairs_of(std::string_view metric, const std::vecto
       const auto head = law.value(result.head);
       const bool comparable =
           law.of_machine ? cells[i].same_machine : solves(result.base) && solves(result.head);
+      const bool is_work = law.kind == db::MetricKind::kCounts || metric == "instructions";
+      if (is_work && (result.base.limit == "time" || result.head.limit == "time")) continue;
       if (!comparable || !base || !head || *base <= 0 || *head <= 0) continue;
       by_instance[result.instance_hash].push_back(std::log(*head) - std::log(*base));
     }
