@@ -58,7 +58,9 @@ equal "$(ask 'SELECT count(DISTINCT pairs) > 0, min(pairs) FROM v_gate_cells WHE
 
 # One instance planned otherwise: found, named, and planned again by the command that is printed.
 # It is changed, not regressed, and fails unless somebody expects it; whether it is worse one instance cannot tell.
-SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10
+SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10 --junit changed.xml
+says '<testcase classname="sipplab gate" name="empty:32x32, 32 robots"><failure message=' changed.xml
+says '<testcase classname="sipplab gate" name="verdict"><failure message=' changed.xml
 says '^INCONCLUSIVE: flowtime \+[0-9.]+ % .*, which may be chance \(sees .*\); 1 of 8 plannings changed; '
 says '^plan: empty:32x32 agents:32 seed:1 index:1$'
 flowtime=$(sed -n 's/.*base: plan .*flowtime //p' out | head -n 1)
@@ -69,7 +71,8 @@ awk -v expected="$flowtime" '$1 == "flowtime" { off = $2 - expected; found = off
   complain "no flowtime $flowtime in: $(head -c 500 replayed)"
 SIPPLAB_INJECT_CHANGE=1 expect 3 "${gate[@]}" --pairs 6 --expect-changes --tolerance 10
 says '1 of 8 plannings changed, as expected'
-SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --floor quality=5 --tolerance 10
+SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --floor quality=5 --tolerance 10 --junit changed.xml
+says 'failures="0"' changed.xml
 says '^CHANGED: 1 of 8 plannings changed, as expected; no slowdown'
 equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'plan'")" "empty:32x32 agents:32 seed:1 index:1" "the instance in the history"
 
@@ -110,7 +113,8 @@ says '^INCONCLUSIVE: success .* points: 1 of 16 plannings lost, 0 gained, p = 1,
 says '<skipped' compare.xml
 expect 0 report "$head" --base "$base" --db gate.db -o page
 says '<td class="bad">lost</td><td>warehouse, 16 robots, ssi 5, none</td>' page/index.html
-expect 5 compare "$base" "$head" --db gate.db --exact --json
+expect 5 compare "$base" "$head" --db gate.db --exact --json --junit compare.xml
+says '<testcase classname="sipplab compare" name="verdict"><failure message=' compare.xml
 says '"verdict": "inconclusive"'
 python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
 

@@ -398,6 +398,29 @@ TEST(Judgement, ReportsNameTheInstanceAndTheCommand) {
   EXPECT_NE(report_junit(report).find("skipped=\"1\""), std::string::npos);
 }
 
+TEST(Judgement, UnexpectedChangesOfPlansFailInJunit) {
+  std::vector<db::PairedCell> cells = {equal_cell(8), equal_cell(8)};
+  cells[1].parameters.robots = 65;
+  cells[1].results[3].head.plan_hash = 99;
+  const Judgement result = judgement_of(cells);
+  Report report{result, "sipplab compare", "a", "b"};
+  EXPECT_NE(report_junit(report).find("failures=\"0\" skipped=\"0\""), std::string::npos);
+  report.changes_fail = true;
+  const std::string xml = report_junit(report);
+  EXPECT_NE(xml.find("failures=\"2\" skipped=\"0\""), std::string::npos)
+      << "the cell, and the whole: " << xml;
+  EXPECT_NE(xml.find("name=\"warehouse, 65 robots\"><failure message=\"1 of 8 plannings changed"),
+            std::string::npos)
+      << xml;
+  // What cannot be told to be worse is another plan all the same.
+  cells[1].results[3].head = failed();
+  const Judgement lost = judgement_of(cells);
+  ASSERT_EQ(lost.all.verdict, Verdict::kInconclusive);
+  Report doubtful{lost, "sipplab compare", "a", "b"};
+  doubtful.changes_fail = true;
+  EXPECT_NE(report_junit(doubtful).find("failures=\"2\" skipped=\"0\""), std::string::npos);
+}
+
 TEST(Judgement, AllCellsTogetherHaveAnEffectWithItsInterval) {
   std::vector<db::PairedCell> cells(3, equal_cell(20));
   for (std::size_t cell = 0; cell < 3; ++cell) {
