@@ -66,14 +66,15 @@ bool is_better(const Difference& row) {
   return row.adjusted_p <= kRecordedLevel && row.effect < -row.floor && row.at_most < 0;
 }
 
-Verdict verdict(const Difference& row) {
+Verdict verdict(const Difference& row, bool same_plans) {
   if (row.worse() + row.better() == 0) return Verdict::kSame;
   if (is_worse(row)) return Verdict::kRegressed;
   if (is_better(row)) return Verdict::kImproved;
   if (row.at_most <= row.floor && row.at_least >= -row.floor) return Verdict::kEquivalent;
   // Worse by as much as matters, or by more than chance gives, and by how much is not known well enough.
   const bool is_worse_so_far = row.effect > row.floor || row.at_least > 0;
-  const bool doubtful = !row.cell && row.metric->doubts_pooled && is_worse_so_far;
+  const bool doubts = row.metric->doubts_pooled || (row.metric->doubts_work && same_plans);
+  const bool doubtful = !row.cell && doubts && is_worse_so_far;
   return doubtful ? Verdict::kInconclusive : Verdict::kChanged;
 }
 
@@ -106,6 +107,7 @@ const Metric kExpansions = {.name = "expansions",
                             .test = Test::kRanks,
                             .judges = true,
                             .judges_pooled = true,
+                            .doubts_work = true,
                             .value = [](const db::ResultRow& row) { return count(row.expansions); },
                             .of_work = true};
 const Metric kGenerations = {.name = "generations",
@@ -221,7 +223,7 @@ Difference measured(const Metric& metric, const std::vector<const db::PairedCell
   return row;
 }
 
-void judge_recorded(const std::vector<Difference*>& family, const Floors& floors) {
+void judge_recorded(const std::vector<Difference*>& family, const Floors& floors, bool same_plans) {
   std::vector<double> p_values;
   for (const Difference* row : family) p_values.push_back(row->p_value);
   const std::vector<double> adjusted = holm(p_values);
@@ -233,7 +235,7 @@ void judge_recorded(const std::vector<Difference*>& family, const Floors& floors
     row.detectable = row.metric->test == Test::kSigns
                          ? detectable_losses(row.pairs, row.plannings, level, row.floor)
                          : detectable_by_ranks(row.pairs, level, row.floor);
-    row.verdict = verdict(row);
+    row.verdict = verdict(row, same_plans);
   }
 }
 

@@ -409,7 +409,9 @@ void verdicts_follow_from_rows() {
       const double level = 0.01 / static_cast<double>(family.size());
       RC_ASSERT(row.detectable == (success ? detectable_losses(row.pairs, row.plannings, level, row.floor)
                                            : detectable_by_ranks(row.pairs, level, row.floor)));
-      RC_ASSERT(row.verdict == verdict_of(row, success || row.metric->name == "flowtime"));
+      const bool doubts = success || row.metric->name == "flowtime" ||
+                          (row.metric->name == "expansions" && judgement.all.other_plans == 0);
+      RC_ASSERT(row.verdict == verdict_of(row, doubts));
     }
   }
   // Of a cell, and of the whole: the gravest.
@@ -420,6 +422,15 @@ void verdicts_follow_from_rows() {
       const bool tells = row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
                          row.verdict == Verdict::kImproved;
       if (tells && (!cell || row.cell == cell)) worst = std::max(worst, *row.verdict);
+    }
+    // The same plans with other work are not the same.
+    if (worst == Verdict::kSame && judged.differing > 0) {
+      worst = Verdict::kEquivalent;
+      for (const Difference& row : judgement.differences) {
+        const auto law = kLaws.find(row.metric->name);
+        const bool counts = law != kLaws.end() && law->second.kind == db::MetricKind::kCounts;
+        if (counts && row.cell == cell && row.verdict == Verdict::kChanged) worst = Verdict::kChanged;
+      }
     }
     return repeated && cell.value_or(0) == 0 ? Verdict::kRegressed : worst;
   };
