@@ -243,7 +243,9 @@ Result<CellPairs> pairs_of(Database& database, Cells& base, Cells& head) {
 
 constexpr const char* kResultColumns =
     "{0}.status, {0}.planning_time_ns, {0}.makespan_s, {0}.flowtime_s, {0}.tries, {0}.expansions, "
-    "{0}.generations, {0}.plan_hash, {0}.limit_struck, {0}.message";
+    "{0}.generations, {0}.plan_hash, {0}.limit_struck, {0}.message, {0}.instructions, "
+    "{0}.peak_memory_bytes";
+constexpr int kResultColumnCount = 12;
 
 ResultRow read_result(const Statement& row, int column) {
   ResultRow result;
@@ -257,7 +259,10 @@ ResultRow read_result(const Statement& row, int column) {
   if (!row.is_null(column)) result.plan_hash = static_cast<std::uint64_t>(row.integer(column));
   ++column;
   result.limit = row.optional_text(column++).value_or("");
-  result.message = row.optional_text(column).value_or("");
+  result.message = row.optional_text(column++).value_or("");
+  if (!row.is_null(column)) result.instructions = row.integer(column);
+  ++column;
+  if (!row.is_null(column)) result.peak_memory_bytes = row.integer(column);
   return result;
 }
 
@@ -282,7 +287,7 @@ Result<Done> read_pairs(Database& database, std::int64_t base, std::int64_t head
           fmt::format(kResultColumns, "base"), fmt::format(kResultColumns, "head")),
       kReadingRuns, base, head));
   constexpr int kBaseColumn = 4;
-  constexpr int kHeadColumn = 14;
+  constexpr int kHeadColumn = kBaseColumn + kResultColumnCount;
   for (;;) {
     const auto row = SIPPLAB_TRY(select.step());
     if (!row) break;

@@ -60,10 +60,11 @@ Command add_compare_command(CLI::App& program) {
   command->footer(
       "A and B are `latest`, a run's UUID or a commit's hash (four digits or more of either), or a branch;\n"
       "`run:`, `commit:` or `branch:` before it says which. For a commit, the newest result of each case\n"
-      "counts. Judged over all cells together, then in each: success, flowtime, makespan, expansions,\n"
-      "generations, tries, instructions, memory. Exit codes: 0 nothing is worse for certain; 1 regressed;\n"
-      "3 inconclusive (it may be worse by more than the floor); 4 nothing comparable; with --exact 5 other\n"
-      "plans.");
+      "counts. Judged over all cells together: success, flowtime, makespan, expansions, generations, tries,\n"
+      "instructions; then in each: success, flowtime, expansions. Times and peak memory of two sweeps "
+      "inform\n"
+      "alone. Exit codes: 0 nothing is worse for certain; 1 regressed; 3 inconclusive (it may be worse by\n"
+      "more than the floor); 4 nothing comparable; with --exact 5 other plans.");
   command->add_option("A", arguments->base, "base: a run, a commit or a branch")->required();
   command->add_option("B", arguments->head, "head: what is judged")->required();
   add_database_flag(*command, arguments->database);

@@ -241,8 +241,8 @@ Command add_gate_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("gate", "compare two builds on this machine: same plans, same speed?");
   command->footer(
-      "Exit codes: 0 equivalent or improved, 1 regressed, 3 inconclusive, 5 other plans and none worse for\n"
-      "certain (0 with --expect-changes).");
+      "Exit codes: 0 equivalent, improved, or the same plans with other work; 1 regressed; 3 inconclusive;\n"
+      "5 other plans and none worse for certain (0 with --expect-changes).");
   add_flags(*command, *arguments);
   return {command, [arguments] { return run_gate(*arguments); }};
 }

@@ -68,7 +68,8 @@ bench::Floors floors_of(const ReportFlags& flags) {
   return floors;
 }
 
-int print_report(const bench::Report& report, const ReportFlags& flags) {
+int print_report(bench::Report report, const ReportFlags& flags) {
+  report.changes_fail = !flags.expects_changes;
   if (flags.wants_json()) {
     print(bench::report_json(report));
   } else {

@@ -26,6 +26,6 @@ void add_report_flags(CLI::App& command, ReportFlags& flags);
 bench::Floors floors_of(const ReportFlags& flags);
 
 /// Prints the report and writes the file of --junit. Returns the exit code of its verdict.
-int print_report(const bench::Report& report, const ReportFlags& flags);
+int print_report(bench::Report report, const ReportFlags& flags);
 
 }  // namespace sipplab::cli

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "bench/judge/change.hpp"
 #include "bench/judge/evidence.hpp"
 #include "db/statistics/statistics.hpp"
 
@@ -21,6 +22,7 @@ std::optional<double> pair_of(const Metric& metric, const db::PairedCell& cell,
   const double base = metric.value(result.base);
   const double head = metric.value(result.head);
   if (metric.test == Test::kSigns) return base - head;
+  if (metric.of_work && (is_cut_short(result.base) || is_cut_short(result.head))) return std::nullopt;
   const bool comparable =
       metric.of_machine ? cell.same_machine : solved(result.base) * solved(result.head) > 0;
   if (!comparable || base <= 0 || head <= 0) return std::nullopt;
@@ -64,14 +66,15 @@ bool is_better(const Difference& row) {
   return row.adjusted_p <= kRecordedLevel && row.effect < -row.floor && row.at_most < 0;
 }
 
-Verdict verdict(const Difference& row) {
+Verdict verdict(const Difference& row, bool same_plans) {
   if (row.worse() + row.better() == 0) return Verdict::kSame;
   if (is_worse(row)) return Verdict::kRegressed;
   if (is_better(row)) return Verdict::kImproved;
   if (row.at_most <= row.floor && row.at_least >= -row.floor) return Verdict::kEquivalent;
   // Worse by as much as matters, or by more than chance gives, and by how much is not known well enough.
   const bool is_worse_so_far = row.effect > row.floor || row.at_least > 0;
-  const bool doubtful = !row.cell && row.metric->doubts_pooled && is_worse_so_far;
+  const bool doubts = row.metric->doubts_pooled || (row.metric->doubts_work && same_plans);
+  const bool doubtful = !row.cell && doubts && is_worse_so_far;
   return doubtful ? Verdict::kInconclusive : Verdict::kChanged;
 }
 
@@ -104,17 +107,21 @@ const Metric kExpansions = {.name = "expansions",
                             .test = Test::kRanks,
                             .judges = true,
                             .judges_pooled = true,
-                            .value = [](const db::ResultRow& row) { return count(row.expansions); }};
+                            .doubts_work = true,
+                            .value = [](const db::ResultRow& row) { return count(row.expansions); },
+                            .of_work = true};
 const Metric kGenerations = {.name = "generations",
                              .kind = db::MetricKind::kCounts,
                              .test = Test::kRanks,
                              .judges_pooled = true,
-                             .value = [](const db::ResultRow& row) { return count(row.generations); }};
+                             .value = [](const db::ResultRow& row) { return count(row.generations); },
+                             .of_work = true};
 const Metric kTries = {.name = "tries",
                        .kind = db::MetricKind::kCounts,
                        .test = Test::kRanks,
                        .judges_pooled = true,
-                       .value = [](const db::ResultRow& row) { return count(row.tries); }};
+                       .value = [](const db::ResultRow& row) { return count(row.tries); },
+                       .of_work = true};
 const Metric kInstructions = {.name = "instructions",
                               .kind = db::MetricKind::kTime,
                               .test = Test::kRanks,
@@ -123,7 +130,8 @@ const Metric kInstructions = {.name = "instructions",
                                   [](const db::ResultRow& row) {
                                     return count(static_cast<std::uint64_t>(row.instructions.value_or(0)));
                                   },
-                              .of_machine = true};
+                              .of_machine = true,
+                              .of_work = true};
 const Metric kMemory = {.name = "peak memory",
                         .kind = db::MetricKind::kMemory,
                         .value =
@@ -215,7 +223,7 @@ Difference measured(const Metric& metric, const std::vector<const db::PairedCell
   return row;
 }
 
-void judge_recorded(const std::vector<Difference*>& family, const Floors& floors) {
+void judge_recorded(const std::vector<Difference*>& family, const Floors& floors, bool same_plans) {
   std::vector<double> p_values;
   for (const Difference* row : family) p_values.push_back(row->p_value);
   const std::vector<double> adjusted = holm(p_values);
@@ -227,7 +235,7 @@ void judge_recorded(const std::vector<Difference*>& family, const Floors& floors
     row.detectable = row.metric->test == Test::kSigns
                          ? detectable_losses(row.pairs, row.plannings, level, row.floor)
                          : detectable_by_ranks(row.pairs, level, row.floor);
-    row.verdict = verdict(row);
+    row.verdict = verdict(row, same_plans);
   }
 }
 

@@ -49,9 +49,11 @@ struct Metric {
   bool judges = false;         ///< in a cell; other metrics inform
   bool judges_pooled = false;  ///< over all cells together
   bool doubts_pooled = false;  ///< there, a worse effect that may matter and may be chance is inconclusive
+  bool doubts_work = false;    ///< the same, but only where no plan differs: other plans scatter it
   /// What one planning gave; 0 and less has no logarithm. None: the pairs are measured elsewhere.
   double (*value)(const db::ResultRow& row) = nullptr;
   bool of_machine = false;  ///< compared on one machine alone, and of unsolved plannings too
+  bool of_work = false;  ///< not compared where the clock cut a side short: it says how fast the machine was
 };
 
 extern const Metric kSuccess;
@@ -131,8 +133,8 @@ Difference measured(const Metric& metric, const std::vector<const db::PairedCell
                     std::optional<std::size_t> cell);
 
 /// Adjusts the p values of rows of recorded metrics that are judged together, gives verdicts to them, and
-/// says what they could have seen.
-void judge_recorded(const std::vector<Difference*>& family, const Floors& floors);
+/// says what they could have seen. `same_plans`: nothing differs but work.
+void judge_recorded(const std::vector<Difference*>& family, const Floors& floors, bool same_plans);
 
 /// Adjusts the p values of rows of kFreshPairs. Their verdicts wait for second_look().
 void judge_times(const std::vector<Difference*>& rows);

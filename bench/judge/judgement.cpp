@@ -202,9 +202,24 @@ void judge_behaviour(Judgement& judgement) {
   }
 }
 
+/// Of the same plans with other work, where no count is news: whether what differs is below its floor.
+Verdict verdict_of_work(const Judgement& judgement, std::optional<std::size_t> cell) {
+  const bool may_matter =
+      std::any_of(judgement.differences.begin(), judgement.differences.end(), [cell](const Difference& row) {
+        return row.cell == cell && row.metric->kind == db::MetricKind::kCounts &&
+               row.verdict == Verdict::kChanged;
+      });
+  return may_matter ? Verdict::kChanged : Verdict::kEquivalent;
+}
+
 /// Adds what changed without being worse, and what stayed as it was.
-void complete(Judged& judged, bool expected) {
-  if (judged.other_plans > 0) judged.verdict = std::max(judged.verdict, Verdict::kChanged);
+void complete(Judgement& judgement, std::optional<std::size_t> cell, bool expected) {
+  Judged& judged = cell ? judgement.cells[*cell] : judgement.all;
+  if (judged.other_plans > 0) {
+    judged.verdict = std::max(judged.verdict, Verdict::kChanged);
+  } else if (judged.differing > 0 && judged.verdict < Verdict::kImproved) {
+    judged.verdict = verdict_of_work(judgement, cell);
+  }
   if (judged.differing > 0) {
     judged.add(changes_text(judged) + (expected && judged.other_plans > 0 ? ", as expected" : ""));
   } else {
@@ -220,6 +235,11 @@ void complete_metrics(Judgement& judgement, bool excused) {
   };
   const Difference* success = calm(kSuccess);
   if (success != nullptr && success->lost + success->gained > 0) judgement.all.add(harmless_words(*success));
+  for (const Metric* metric : kMetrics) {
+    const Difference* work = metric->kind == db::MetricKind::kCounts ? calm(*metric) : nullptr;
+    if (work == nullptr || work->worse() + work->better() == 0 || judgement.all.other_plans > 0) continue;
+    judgement.all.add(words(*work));
+  }
   if (const Difference* time = calm(kProcessTime); time != nullptr && !excused) {
     const auto& rows = judgement.differences;
     const bool some_slower = std::any_of(rows.begin(), rows.end(), [](const Difference& row) {
@@ -344,14 +364,15 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
       (row.cell ? cells : pooled).push_back(&row);
     }
   }
-  judge_recorded(pooled, options.floors);
-  judge_recorded(cells, options.floors);
+  const bool same_plans = judgement.all.other_plans == 0;
+  judge_recorded(pooled, options.floors, same_plans);
+  judge_recorded(cells, options.floors, same_plans);
   const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
   judge_metrics(judgement, excused);
-  for (Judged& cell : judgement.cells) complete(cell, options.expects_changes);
+  for (std::size_t i = 0; i < judgement.cells.size(); ++i) complete(judgement, i, options.expects_changes);
   if (judgement.find(kProcessTime, std::nullopt) != nullptr)
     judgement.all.verdict = std::max(judgement.all.verdict, Verdict::kEquivalent);
-  complete(judgement.all, options.expects_changes);
+  complete(judgement, std::nullopt, options.expects_changes);
   complete_metrics(judgement, excused);
   if (excused) judgement.all.add(options.times_excuse);
 }

@@ -330,11 +330,14 @@ std::string report_json(const Report& report) {
 std::string report_junit(const Report& report) {
   const Judgement& judgement = report.judgement;
   std::vector<JunitCase> tests;
-  const auto add = [&tests](const std::string& title, const Judged& judged) {
+  const auto add = [&](const std::string& title, const Judged& judged) {
     JunitCase test;
     test.name = title;
-    if (judged.verdict == Verdict::kRegressed) test.failure = judged.reason;
-    if (judged.verdict == Verdict::kInconclusive) test.skipped = judged.reason;
+    if (judged.verdict == Verdict::kRegressed || (report.changes_fail && judged.other_plans > 0)) {
+      test.failure = judged.reason;
+    } else if (judged.verdict == Verdict::kInconclusive) {
+      test.skipped = judged.reason;
+    }
     tests.push_back(std::move(test));
   };
   for (const Judged& cell : judgement.cells) add(cell.name, cell);

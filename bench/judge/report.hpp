@@ -21,6 +21,7 @@ struct Report {
   std::string notes = {};               ///< lines below the tables
   std::string all_findings = {};        ///< where the findings are that are not listed
   std::size_t listed = 10;              ///< findings that text and Markdown show; JSON has all of them
+  bool changes_fail = false;            ///< other plans are failures in JUnit's XML, as exit code 5 is
 };
 
 std::string report_text(const Report& report);

@@ -58,7 +58,9 @@ equal "$(ask 'SELECT count(DISTINCT pairs) > 0, min(pairs) FROM v_gate_cells WHE
 
 # One instance planned otherwise: found, named, and planned again by the command that is printed.
 # It is changed, not regressed, and fails unless somebody expects it; whether it is worse one instance cannot tell.
-SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10
+SIPPLAB_INJECT_CHANGE=1 expect 5 "${gate[@]}" --pairs 6 --tolerance 10 --junit changed.xml
+says '<testcase classname="sipplab gate" name="empty:32x32, 32 robots"><failure message=' changed.xml
+says '<testcase classname="sipplab gate" name="verdict"><failure message=' changed.xml
 says '^INCONCLUSIVE: flowtime \+[0-9.]+ % .*, which may be chance \(sees .*\); 1 of 8 plannings changed; '
 says '^plan: empty:32x32 agents:32 seed:1 index:1$'
 flowtime=$(sed -n 's/.*base: plan .*flowtime //p' out | head -n 1)
@@ -69,7 +71,8 @@ awk -v expected="$flowtime" '$1 == "flowtime" { off = $2 - expected; found = off
   complain "no flowtime $flowtime in: $(head -c 500 replayed)"
 SIPPLAB_INJECT_CHANGE=1 expect 3 "${gate[@]}" --pairs 6 --expect-changes --tolerance 10
 says '1 of 8 plannings changed, as expected'
-SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --floor quality=5 --tolerance 10
+SIPPLAB_INJECT_CHANGE=1 expect 0 "${gate[@]}" --pairs 6 --expect-changes --floor quality=5 --tolerance 10 --junit changed.xml
+says 'failures="0"' changed.xml
 says '^CHANGED: 1 of 8 plannings changed, as expected; no slowdown'
 equal "$(ask "SELECT DISTINCT instance FROM v_gate_differences WHERE what = 'plan'")" "empty:32x32 agents:32 seed:1 index:1" "the instance in the history"
 
@@ -110,15 +113,29 @@ says '^INCONCLUSIVE: success .* points: 1 of 16 plannings lost, 0 gained, p = 1,
 says '<skipped' compare.xml
 expect 0 report "$head" --base "$base" --db gate.db -o page
 says '<td class="bad">lost</td><td>warehouse, 16 robots, ssi 5, none</td>' page/index.html
-expect 5 compare "$base" "$head" --db gate.db --exact --json
+expect 5 compare "$base" "$head" --db gate.db --exact --json --junit compare.xml
+says '<testcase classname="sipplab compare" name="verdict"><failure message=' compare.xml
 says '"verdict": "inconclusive"'
 python3 -c 'import json; json.load(open("out"))' 2>/dev/null || ! command -v python3 >/dev/null || complain "compare's JSON does not parse"
 
-# Worse plans in every cell: seen over all of them, whatever is expected.
+# Worse plans in every cell: seen over all of them, whatever is expected. Twice the instructions as well.
 again=(bench --suite smoke --map warehouse --robots 16 --ssi "0,5" --reschedule "none,deterministic" --order shortest --any-angle --connectedness 2 --count 12)
 expect 0 "${again[@]}" --db plans.db
 expect 0 "${again[@]}" --db plans.db
 plans() { sqlite3 plans.db "SELECT uuid FROM run ORDER BY id LIMIT 1 OFFSET $1"; }
+sqlite3 plans.db "UPDATE result SET instructions = 1000 + position;
+  UPDATE result SET instructions = 2 * instructions WHERE cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
+expect 1 compare "$(plans 0)" "$(plans 1)" --db plans.db
+says '^REGRESSED: instructions \+100.0 % \(95 %: \+100.0 to \+100.0\); plans unchanged; flowtime \+0.0 %$'
+sqlite3 plans.db "UPDATE result SET instructions = 1000"
+# One instance of twelve takes twice the expansions, with the same plans: that may be chance, and is not the same.
+of_one="WHERE position = 3 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
+sqlite3 plans.db "UPDATE result SET expansions = 2 * expansions $of_one"
+expect 3 compare "$(plans 0)" "$(plans 1)" --db plans.db
+says '^INCONCLUSIVE: expansions \+5.9 % .*, which may be chance \(sees .*\); plans unchanged, other work in [1-4] of 48; '
+expect 0 compare "$(plans 1)" "$(plans 0)" --db plans.db
+says '^CHANGED: plans unchanged, other work in [1-4] of 48; expansions -5.6 % '
+sqlite3 plans.db "UPDATE result SET expansions = expansions / 2 $of_one"
 sqlite3 plans.db "UPDATE result SET plan_hash = 2 WHERE status = 0 AND position = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
 expect 0 compare "$(plans 0)" "$(plans 1)" --db plans.db
 says '^CHANGED: [0-9]+ of 48 plannings changed; flowtime \+0.0 %'

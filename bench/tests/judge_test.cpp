@@ -109,13 +109,63 @@ TEST(Judgement, AnotherPlanIsAChange) {
   EXPECT_EQ(judgement_of(cells, expected).all.reason.find("1 of 8 plannings changed, as expected"), 0U);
 }
 
-TEST(Judgement, OtherWorkForTheSamePlansIsNoChange) {
+TEST(Judgement, OtherWorkForTheSamePlansIsNoOtherPlan) {
   std::vector<db::PairedCell> cells = {equal_cell(8)};
-  cells[0].results[3].head.generations = 21;
+  cells[0].results[3].base.generations = 1000;
+  cells[0].results[3].head.generations = 1001;
+  const Judgement small = judgement_of(cells);
+  EXPECT_EQ(small.all.differing, 1U);
+  EXPECT_EQ(small.all.other_plans, 0U);
+  EXPECT_EQ(small.all.verdict, Verdict::kEquivalent);
+  EXPECT_EQ(small.all.reason, "plans unchanged, other work in 1 of 8; generations +0.0 %");
+  cells[0].results[3].head.generations = 1100;
   const Judgement result = judgement_of(cells);
-  EXPECT_EQ(result.all.differing, 1U);
-  EXPECT_EQ(result.all.verdict, Verdict::kSame);
-  EXPECT_EQ(result.all.reason, "plans unchanged, other work in 1 of 8");
+  EXPECT_EQ(result.all.verdict, Verdict::kChanged);
+  EXPECT_EQ(
+      result.all.reason,
+      "plans unchanged, other work in 1 of 8; generations +1.2 % (95 %: -1.6 to +4.1); flowtime +0.0 %");
+}
+
+/// 900 plannings of 100 instances; of the first `instances` the head expands `factor` times as many nodes.
+std::vector<db::PairedCell> with_more_work(std::size_t instances, double factor) {
+  std::vector<db::PairedCell> cells = {equal_cell(900)};
+  for (std::size_t i = 0; i < 900; ++i) {
+    db::PairedResult& result = cells[0].results[i];
+    result.instance_hash = "hash " + std::to_string(i % 100);
+    result.base.expansions = result.head.expansions = 100'000;
+    if (i % 100 < instances) result.head.expansions = static_cast<std::uint64_t>(100'000 * factor);
+  }
+  return cells;
+}
+
+TEST(Judgement, MoreExpansionsForTheSamePlansAreNotTheSame) {
+  // Eight instances of a hundred differ: chance gives that once in 128 times, and seven metrics are tested.
+  const Judgement doubtful = judgement_of(with_more_work(8, 1.85));
+  EXPECT_EQ(row(doubtful, kExpansions, std::nullopt).verdict, Verdict::kInconclusive);
+  EXPECT_EQ(doubtful.all.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(
+      doubtful.all.reason.find("expansions +5.0 % (95 %: +1.6 to +8.6), which may be chance (sees from "), 0U)
+      << doubtful.all.reason;
+  EXPECT_NE(doubtful.all.reason.find("; plans unchanged, other work in 72 of 900"), std::string::npos);
+  // The effect is below the floor, and its interval reaches beyond.
+  EXPECT_EQ(judgement_of(with_more_work(8, 1.05)).all.verdict, Verdict::kInconclusive);
+  const Judgement certain = judgement_of(with_more_work(100, 1.05));
+  EXPECT_EQ(certain.all.verdict, Verdict::kRegressed);
+  EXPECT_EQ(certain.all.reason.find("expansions +5.0 % (95 %: +5.0 to +5.0)"), 0U) << certain.all.reason;
+  const Judgement small = judgement_of(with_more_work(100, 1.003));
+  EXPECT_EQ(small.all.verdict, Verdict::kEquivalent);
+  EXPECT_EQ(small.all.reason,
+            "plans unchanged, other work in 900 of 900; expansions +0.3 % (95 %: +0.3 to +0.3)");
+  // Fewer, and not for certain.
+  EXPECT_EQ(judgement_of(with_more_work(8, 0.5)).all.verdict, Verdict::kChanged);
+}
+
+TEST(Judgement, OtherPlansScatterExpansionsWithoutDoubt) {
+  std::vector<db::PairedCell> cells = with_more_work(8, 1.85);
+  for (std::size_t i = 0; i < 8; ++i) cells[0].results[i].head.plan_hash = 5000 + i;
+  const Judgement result = judgement_of(cells);
+  EXPECT_EQ(row(result, kExpansions, std::nullopt).verdict, Verdict::kChanged);
+  EXPECT_EQ(result.all.verdict, Verdict::kChanged);
 }
 
 TEST(Judgement, OneLostMayBeChanceAndManyAreNot) {
@@ -320,6 +370,22 @@ TEST(Judgement, MoreWorkForTheSamePlansIsARegression) {
       << result.all.reason;
 }
 
+TEST(Judgement, WorkThatTheClockCutShortIsNotCompared) {
+  std::vector<db::PairedCell> cells = {equal_cell(20)};
+  for (db::PairedResult& result : cells[0].results) {
+    result.base.instructions = 1000;
+    result.head.instructions = 2000;
+    result.head.expansions = 20;
+  }
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kRegressed);
+  for (db::PairedResult& result : cells[0].results) result.head.limit = "time";
+  const Judgement judgement = judgement_of(cells);
+  EXPECT_EQ(judgement.all.verdict, Verdict::kSame) << judgement.all.reason;
+  EXPECT_TRUE(row(judgement, kInstructions, std::nullopt).pairs.empty());
+  EXPECT_TRUE(row(judgement, kExpansions, std::nullopt).pairs.empty());
+  EXPECT_EQ(row(judgement, kFlowtime, std::nullopt).pairs.size(), 20U);
+}
+
 TEST(Judgement, MemoryOfTwoProcessesInformsAlone) {
   std::vector<db::PairedCell> cells = {equal_cell(20)};
   for (db::PairedResult& result : cells[0].results) {
@@ -380,6 +446,29 @@ TEST(Judgement, ReportsNameTheInstanceAndTheCommand) {
     EXPECT_NE(text.find(command), std::string::npos) << text;
   }
   EXPECT_NE(report_junit(report).find("skipped=\"1\""), std::string::npos);
+}
+
+TEST(Judgement, UnexpectedChangesOfPlansFailInJunit) {
+  std::vector<db::PairedCell> cells = {equal_cell(8), equal_cell(8)};
+  cells[1].parameters.robots = 65;
+  cells[1].results[3].head.plan_hash = 99;
+  const Judgement result = judgement_of(cells);
+  Report report{result, "sipplab compare", "a", "b"};
+  EXPECT_NE(report_junit(report).find("failures=\"0\" skipped=\"0\""), std::string::npos);
+  report.changes_fail = true;
+  const std::string xml = report_junit(report);
+  EXPECT_NE(xml.find("failures=\"2\" skipped=\"0\""), std::string::npos)
+      << "the cell, and the whole: " << xml;
+  EXPECT_NE(xml.find("name=\"warehouse, 65 robots\"><failure message=\"1 of 8 plannings changed"),
+            std::string::npos)
+      << xml;
+  // What cannot be told to be worse is another plan all the same.
+  cells[1].results[3].head = failed();
+  const Judgement lost = judgement_of(cells);
+  ASSERT_EQ(lost.all.verdict, Verdict::kInconclusive);
+  Report doubtful{lost, "sipplab compare", "a", "b"};
+  doubtful.changes_fail = true;
+  EXPECT_NE(report_junit(doubtful).find("failures=\"2\" skipped=\"0\""), std::string::npos);
 }
 
 TEST(Judgement, AllCellsTogetherHaveAnEffectWithItsInterval) {

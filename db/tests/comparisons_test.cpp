@@ -129,6 +129,39 @@ TEST_F(Comparisons, pairs_hold_what_was_recorded) {
   }
 }
 
+TEST_F(Comparisons, pairs_hold_instructions_and_memory_of_either_side) {
+  const auto run = [this](const std::string& hash, std::int64_t instructions, std::int64_t bytes) {
+    RunInfo info = test::sample_run();
+    info.commit->hash = hash;
+    auto recorder = must(RunRecorder::begin(must(Database::open(file)), info));
+    for (int i = 0; i < 2; ++i) {
+      ResultRow row = test::sample_result(i);
+      if (i == 0) {
+        row.instructions = instructions;
+        row.peak_memory_bytes = bytes;
+      }
+      recorder.add(test::sample_case(64), test::sample_instance(i), row);
+    }
+    must(recorder.commit());
+    must(recorder.finish(RunStatus::kFinished));
+  };
+  run(kOlder, 3000, 4096);
+  run(kNewer, 6000, 8192);
+  const std::vector<PairedCell> cells = pairs("commit:aaaa", "commit:aaab");
+  ASSERT_EQ(cells.size(), 1U);
+  ASSERT_EQ(cells[0].results.size(), 2U);
+  const PairedResult& known = cells[0].results[0];
+  EXPECT_EQ(known.base.instructions, 3000);
+  EXPECT_EQ(known.head.instructions, 6000);
+  EXPECT_EQ(known.base.peak_memory_bytes, 4096);
+  EXPECT_EQ(known.head.peak_memory_bytes, 8192);
+  const PairedResult& unknown = cells[0].results[1];
+  for (const ResultRow& row : {unknown.base, unknown.head}) {
+    EXPECT_FALSE(row.instructions);
+    EXPECT_FALSE(row.peak_memory_bytes);
+  }
+}
+
 CaseInfo planned_by(std::string planner, double ssi_s, double weight = 1) {
   CaseInfo parameters = test::sample_case(64, ssi_s);
   parameters.planner = std::move(planner);

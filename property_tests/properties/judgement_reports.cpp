@@ -22,7 +22,8 @@ void reports_say_what_was_judged() {
   Judgement judgement = measured(any_cells());
   if (judgement.results.empty()) RC_DISCARD("nothing to compare");
   judge(judgement, {});
-  const Report report{judgement, "sipplab compare", "base", "head"};
+  Report report{judgement, "sipplab compare", "base", "head"};
+  report.changes_fail = db::any_flag();
   const auto json = nlohmann::json::parse(report_json(report));
   RC_ASSERT(json.at("verdict") == name(judgement.all.verdict));
   RC_ASSERT(json.at("reason") == judgement.all.reason);
@@ -111,19 +112,24 @@ void reports_say_what_was_judged() {
     RC_ASSERT(column("gained", i + 1) == std::to_string(row.gained));
     RC_ASSERT(column("both solved", i + 1) == std::to_string(judged.both_solved));
   }
-  // A test for each cell and one for the whole; failed is what regressed, skipped what nobody can tell.
+  // A test for each cell and one for the whole; failed is what regressed or is not to be planned otherwise,
+  // skipped what nobody can tell.
   const std::string xml = report_junit(report);
   const auto occurrences = [&xml](const std::string& text) {
     std::size_t found = 0;
     for (std::size_t at = xml.find(text); at != std::string::npos; at = xml.find(text, at + 1)) ++found;
     return found;
   };
-  std::size_t failed = judgement.all.verdict == Verdict::kRegressed ? 1 : 0;
-  std::size_t skipped = judgement.all.verdict == Verdict::kInconclusive ? 1 : 0;
-  for (const Judged& cell : judgement.cells) {
-    failed += cell.verdict == Verdict::kRegressed ? 1U : 0U;
-    skipped += cell.verdict == Verdict::kInconclusive ? 1U : 0U;
-  }
+  std::size_t failed = 0;
+  std::size_t skipped = 0;
+  const auto count = [&](const Judged& judged) {
+    const bool fails =
+        judged.verdict == Verdict::kRegressed || (report.changes_fail && judged.other_plans > 0);
+    failed += fails ? 1U : 0U;
+    skipped += !fails && judged.verdict == Verdict::kInconclusive ? 1U : 0U;
+  };
+  count(judgement.all);
+  for (const Judged& cell : judgement.cells) count(cell);
   RC_ASSERT(occurrences("<testcase ") == judgement.cells.size() + 1);
   RC_ASSERT(occurrences("<failure ") == failed);
   RC_ASSERT(occurrences("<skipped ") == skipped);

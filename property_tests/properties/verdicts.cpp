@@ -223,6 +223,8 @@ std::map<std::string, double> pairs_of(std::string_view metric, const std::vecto
       const auto head = law.value(result.head);
       const bool comparable =
           law.of_machine ? cells[i].same_machine : solves(result.base) && solves(result.head);
+      const bool is_work = law.kind == db::MetricKind::kCounts || metric == "instructions";
+      if (is_work && (result.base.limit == "time" || result.head.limit == "time")) continue;
       if (!comparable || !base || !head || *base <= 0 || *head <= 0) continue;
       by_instance[result.instance_hash].push_back(std::log(*head) - std::log(*base));
     }
@@ -407,7 +409,9 @@ void verdicts_follow_from_rows() {
       const double level = 0.01 / static_cast<double>(family.size());
       RC_ASSERT(row.detectable == (success ? detectable_losses(row.pairs, row.plannings, level, row.floor)
                                            : detectable_by_ranks(row.pairs, level, row.floor)));
-      RC_ASSERT(row.verdict == verdict_of(row, success || row.metric->name == "flowtime"));
+      const bool doubts = success || row.metric->name == "flowtime" ||
+                          (row.metric->name == "expansions" && judgement.all.other_plans == 0);
+      RC_ASSERT(row.verdict == verdict_of(row, doubts));
     }
   }
   // Of a cell, and of the whole: the gravest.
@@ -418,6 +422,15 @@ void verdicts_follow_from_rows() {
       const bool tells = row.verdict == Verdict::kRegressed || row.verdict == Verdict::kInconclusive ||
                          row.verdict == Verdict::kImproved;
       if (tells && (!cell || row.cell == cell)) worst = std::max(worst, *row.verdict);
+    }
+    // The same plans with other work are not the same.
+    if (worst == Verdict::kSame && judged.differing > 0) {
+      worst = Verdict::kEquivalent;
+      for (const Difference& row : judgement.differences) {
+        const auto law = kLaws.find(row.metric->name);
+        const bool counts = law != kLaws.end() && law->second.kind == db::MetricKind::kCounts;
+        if (counts && row.cell == cell && row.verdict == Verdict::kChanged) worst = Verdict::kChanged;
+      }
     }
     return repeated && cell.value_or(0) == 0 ? Verdict::kRegressed : worst;
   };
