@@ -344,6 +344,13 @@ refused 'no query' sql --file /dev/null
   head -1 >/dev/null
 equal "${PIPESTATUS[0]}" 141 'exit code with a closed pipe'
 equal "$(cat err)" '' 'words about a closed pipe'
+# Several files are named, line by line: the reader has gone before the second.
+mkfifo gone
+exec 5<>gone 4>gone 5>&-
+"$sipplab" report -o report 2>err >&4
+equal "$?" 141 'exit code of several lines with a closed pipe'
+equal "$(cat err)" '' 'words about several lines and a closed pipe'
+exec 4>&-
 refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.
