@@ -213,6 +213,10 @@ expect 0 trend success --svg trend.svg --json
 says '"after": 0.666'
 says '<path' trend.svg
 says '</svg>' trend.svg
+expect 0 trend success --svg trend.pdf
+equal "$(head -c 5 trend.pdf)" '%PDF-' 'a picture of a trend that is called .pdf'
+refused 'trend.png: no picture, expected a name that ends in .svg or .pdf' trend success --svg trend.png
+[ ! -e trend.png ] || complain 'a picture of a trend that was refused'
 expect 0 trend runtime --rows 3
 expect 0 trend success --case 1 --min-effect 0.5
 says 'no change of level'
