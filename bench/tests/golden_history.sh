@@ -366,6 +366,13 @@ while IFS= read -r line; do
 done < <(sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p' "$cookbook")
 [ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
 
+# What compare can see of success is in points, as in its reports.
+trials=("$(dirname "$cookbook")/../scripts/trials" compare --runs sipplab.db 00000000-0000-4000-8000-000000000001
+  00000000-0000-4000-8000-000000000002 --build "$sipplab" --equal 0 --worse success 0.5 1 --worse flowtime 0.2 1)
+runs 0 "${trials[@]}"
+says '^success 0.5 .*, from [0-9.]+ points$'
+says '^flowtime 0.2 .*, from [0-9.]+ %$'
+
 # Failures are never fast: what takes means or quantiles of times, here or in the examples of the views, says the same
 # however long failures took. Rows with a status beside are of single plannings.
 cp sipplab.db failures.db
