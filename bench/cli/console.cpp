@@ -21,6 +21,14 @@ void remember_failure() {
   stdout_failed = true;
 }
 
+/// Benchmark reporters write to std::cout. Whoever flushes first has the reason of a failure, nobody after.
+void flush_stdout() {
+  errno = 0;
+  std::cout.flush();
+  if (!std::cout) remember_failure();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) remember_failure();
+}
+
 std::string on_one_line(std::string_view text) {
   std::string line(text);
   for (char& c : line) {
@@ -34,17 +42,15 @@ std::string on_one_line(std::string_view text) {
 
 void print(std::string_view text) {
   if (stdout_failed) return;
-  std::cout.flush();  // benchmark reporters write there
+  flush_stdout();
+  if (stdout_failed) return;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) remember_failure();
 }
 
 void print_json(const nlohmann::ordered_json& json) { print(db::json_text(json)); }
 
 int close_stdout(int code) {
-  errno = 0;
-  std::cout.flush();
-  if (!std::cout) remember_failure();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) remember_failure();
+  flush_stdout();
   if (!stdout_failed) return code;
   // Who read it has seen enough, such as `head`. Programs that die of it end so, too.
   if (stdout_errno == EPIPE) return kSignalExitBase + SIGPIPE;
@@ -54,7 +60,7 @@ int close_stdout(int code) {
 
 void diagnose(std::string_view line) {
   const std::string text = on_one_line(line) + "\n";
-  std::fflush(stdout);  // if both go to one file, lines keep their order
+  flush_stdout();  // if both go to one file, lines keep their order
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -29,8 +29,8 @@ using bench::kSignalExitBase;
 void print(std::string_view text);
 void print_json(const nlohmann::ordered_json& json);
 
-/// Flushes stdout, standard streams included. Returns `code`, or kBadUsage with one
-/// line on stderr if the reader has gone or the disk is full.
+/// Flushes stdout, standard streams included. Returns `code`; the code of a program that SIGPIPE ends,
+/// without a word, if the reader has gone; kBadUsage with one line on stderr if the disk is full.
 int close_stdout(int code);
 
 /// One line on stderr as it is; line breaks in it become blanks.

@@ -67,11 +67,11 @@ constexpr Picture kPictures[] = {
 constexpr const char* kFigure = "figure1";
 constexpr const char* kTable = "table1";
 
-int save(const PlotArguments& arguments, const bench::Chart& chart, const std::string& nothing) {
+int save(const PlotArguments& arguments, bench::PictureFormat format, const bench::Chart& chart,
+         const std::string& nothing) {
   if (bench::is_empty(chart))
     return fail(kNothingComparable, "sipplab: nothing to draw, expected " + nothing);
-  const auto format = arguments.file ? bench::picture_format(*arguments.file) : bench::PictureFormat::kSvg;
-  const auto picture = SIPPLAB_TRY_OR(fail, bench::pictures_of({chart}, *format));
+  const auto picture = SIPPLAB_TRY_OR(fail, bench::pictures_of({chart}, format));
   if (!arguments.file) {
     print(picture.front());
     return kSuccess;
@@ -81,7 +81,7 @@ int save(const PlotArguments& arguments, const bench::Chart& chart, const std::s
 }
 
 /// A picture of the paper is of one run, and of cells of its own.
-int plot_paper(const PlotArguments& arguments) {
+int plot_paper(const PlotArguments& arguments, bench::PictureFormat format) {
   if (arguments.runs.size() > 1) {
     return bad_usage(arguments.kind + " shows one run, expected not " +
                      std::to_string(arguments.runs.size()));
@@ -92,19 +92,19 @@ int plot_paper(const PlotArguments& arguments) {
   auto database = SIPPLAB_TRY_OR(fail, db::Database::open_read_only(path));
   const auto uuid = SIPPLAB_TRY_OR(fail, db::resolve_run(database, arguments.runs.front()));
   const auto cells = SIPPLAB_TRY_OR(fail, bench::measured_cells(path, uuid));
-  return save(arguments, arguments.kind == kFigure ? bench::figure_chart(cells) : bench::table_chart(cells),
+  return save(arguments, format,
+              arguments.kind == kFigure ? bench::figure_chart(cells) : bench::table_chart(cells),
               "a run with cells of the paper: `sipplab reproduce`");
 }
 
 int run_plot(const PlotArguments& arguments) {
-  if (arguments.file && !bench::picture_format(*arguments.file)) {
-    return bad_usage(*arguments.file + ": no picture, expected a name that ends in .svg or .pdf");
-  }
+  auto format = bench::PictureFormat::kSvg;
+  if (arguments.file) format = SIPPLAB_TRY_OR(bad_usage, bench::picture_format(*arguments.file));
   const bool scattered = arguments.kind.starts_with("scatter");
   if (!arguments.sides.empty() && (!scattered || arguments.sides.size() != 2)) {
     return bad_usage("--side, expected two of them, and a scatter plot");
   }
-  if (arguments.kind == kFigure || arguments.kind == kTable) return plot_paper(arguments);
+  if (arguments.kind == kFigure || arguments.kind == kTable) return plot_paper(arguments, format);
   bench::PlotRequest request;
   request.filter = SIPPLAB_TRY_OR(bad_usage, parse_case_filter(arguments.cases));
   if (request.filter.id)
@@ -123,7 +123,7 @@ int run_plot(const PlotArguments& arguments) {
   const auto chart = picture.draw(request);
   if (!chart) return fail(kNothingComparable, chart.error());
   return save(
-      arguments, *chart,
+      arguments, format, *chart,
       picture.steps ? "improved results of such cases in the runs" : "results of such cases in the runs");
 }
 

@@ -38,6 +38,8 @@ struct TrendArguments {
 int run_trend(const TrendArguments& arguments) {
   db::TrendQuery query;
   query.metric = db::find_trend_metric(arguments.metric);
+  auto format = bench::PictureFormat::kSvg;
+  if (arguments.svg) format = SIPPLAB_TRY_OR(bad_usage, bench::picture_format(*arguments.svg));
   const auto filter = SIPPLAB_TRY_OR(bad_usage, parse_case_filter(arguments.cases));
   if (!query.metric->of_case &&
       (!arguments.cases.empty() || arguments.suite || arguments.branch || arguments.machine)) {
@@ -59,8 +61,8 @@ int run_trend(const TrendArguments& arguments) {
   }
   db::mark_changes(series, *query.metric, arguments.rules);
   if (arguments.svg) {
-    const auto picture = SIPPLAB_TRY_OR(
-        fail, bench::pictures_of({bench::trend_chart(*query.metric, series)}, bench::PictureFormat::kSvg));
+    const auto picture =
+        SIPPLAB_TRY_OR(fail, bench::pictures_of({bench::trend_chart(*query.metric, series)}, format));
     if (const auto error = write_file(*arguments.svg, picture.front())) return fail(error->message());
   }
   print(arguments.json ? db::json_text(bench::trend_json(*query.metric, series))
@@ -106,7 +108,7 @@ Command add_trend_command(CLI::App& program) {
       ->check(real_between(0, kGreatestEffect));
   command->add_option("--seed", arguments->rules.search.seed, "seed of the permutation tests")
       ->capture_default_str();
-  command->add_option("--svg", arguments->svg, "write a picture")->type_name("FILE");
+  command->add_option("--svg", arguments->svg, "write a picture, .svg or .pdf")->type_name("FILE");
   add_database_flag(*command, arguments->database);
   command->add_flag("--json", arguments->json, "print one JSON document");
   command->footer(

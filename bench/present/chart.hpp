@@ -94,8 +94,8 @@ Expected<std::vector<std::string>, std::string> pictures_of(const std::vector<Ch
 std::string picture_place(std::size_t chart);
 Expected<std::string, std::string> with_pictures(std::string page, const std::vector<Chart>& charts);
 
-/// .svg or .pdf by the name of a file; none for another one.
-std::optional<PictureFormat> picture_format(const std::string& file);
+/// .svg or .pdf by the name of a file; one line for another one.
+Expected<PictureFormat, std::string> picture_format(const std::string& file);
 
 /// One line if gnuplot is not installed, else none: to be asked before work that ends in pictures.
 std::optional<std::string> find_gnuplot_error();

@@ -90,10 +90,10 @@ Expected<std::string, std::string> with_pictures(std::string page, const std::ve
   return text.append(page, done);
 }
 
-std::optional<PictureFormat> picture_format(const std::string& file) {
+Expected<PictureFormat, std::string> picture_format(const std::string& file) {
   if (file.ends_with(".svg")) return PictureFormat::kSvg;
   if (file.ends_with(".pdf")) return PictureFormat::kPdf;
-  return std::nullopt;
+  return Unexpected{file + ": no picture, expected a name that ends in .svg or .pdf"};
 }
 
 std::optional<std::string> find_gnuplot_error() {

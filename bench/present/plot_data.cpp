@@ -17,14 +17,13 @@ db::Result<PlottedRun> read_plotted_run(const std::filesystem::path& path, const
   const auto optional_real = [](const NamedRow& row, std::string_view column) {
     return std::holds_alternative<db::Null>(row[column]) ? std::nullopt : std::optional(row.real(column));
   };
-  const std::string instance = "instance_hash || '/' || position || '/' || repetition AS instance";
   if (with_results) {
-    const auto table =
-        SIPPLAB_TRY(db::run_sql(path,
-                                "SELECT case_id, " + instance +
-                                    ", status = 'solved' AS solved, planning_time_s, flowtime_s, makespan_s "
-                                    "FROM v_all_results WHERE run = :run",
-                                of_run));
+    const auto table = SIPPLAB_TRY(
+        db::run_sql(path,
+                    "SELECT case_id, instance_hash || '/' || position || '/' || repetition AS instance, "
+                    "status = 'solved' AS solved, planning_time_s, flowtime_s, makespan_s "
+                    "FROM v_all_results WHERE run = :run",
+                    of_run));
     for (const auto& values : table.rows) {
       const NamedRow row(table, values);
       plotted.results.push_back({row.integer("case_id"), row.text("instance"), row.integer("solved") != 0,
@@ -33,12 +32,16 @@ db::Result<PlottedRun> read_plotted_run(const std::filesystem::path& path, const
     }
   }
   if (with_steps) {
-    const auto table =
-        SIPPLAB_TRY(db::run_sql(path,
-                                "SELECT case_id, " + instance +
-                                    ", elapsed_s, flowtime_gap FROM v_progress WHERE run = :run "
-                                    "ORDER BY case_id, instance, step",
-                                of_run));
+    // v_progress has no excluded runs; one that is named is drawn, as by the other pictures.
+    const auto table = SIPPLAB_TRY(db::run_sql(
+        path,
+        "SELECT case_id, content_hash || '/' || position || '/' || repetition AS instance, "
+        "elapsed_ns / 1e9 AS elapsed_s, "
+        "iif(flowtime_s > flowtime_bound_s, 1 - flowtime_bound_s / flowtime_s, 0.0) AS flowtime_gap "
+        "FROM progress JOIN cell ON cell.id = cell_id JOIN run ON run.id = run_id "
+        "JOIN instance ON instance.id = instance_id WHERE run.uuid = :run "
+        "ORDER BY case_id, instance, step",
+        of_run));
     for (const auto& values : table.rows) {
       const NamedRow row(table, values);
       plotted.steps.push_back(

@@ -45,7 +45,7 @@ struct PlotRequest {
       false;  ///< the second run is the base of the first: dashed, in the first one's colours
 };
 
-/// Reads a run, with its results or steps if they are asked for.
+/// Reads a run, be it excluded or not, with its results or steps if they are asked for.
 db::Result<PlottedRun> read_plotted_run(const std::filesystem::path& database, const std::string& run,
                                         bool with_results, bool with_steps);
 

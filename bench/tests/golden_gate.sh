@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # The gate and the comparison of runs, as users meet them. $1: sipplab.
+scripts=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../scripts")
 . "$(dirname "${BASH_SOURCE[0]}")/golden_support.sh"
 install -m 755 "$sipplab" sipplab
 sipplab=$work/sipplab
@@ -154,6 +155,31 @@ says '^REGRESSED: flowtime'
 says "^and [0-9]+ more: .SELECT \* FROM v_gate_differences., .sipplab compare $(plans 0 | cut -c 1-8) $(plans 1 | cut -c 1-8) --list.$"
 says '<testcase classname="sipplab gate" name="warehouse, 16 robots, ssi 5, none"' both.xml
 says '<testcase classname="sipplab gate" name="empty:32x32, 32 robots"' both.xml
+
+# scripts/pull-request measures the noise of this machine unless it is known: calibrations of another machine and
+# excluded ones are not it. What it starts is short here, but for the questions.
+cat >asked <<'TEXT'
+#!/bin/sh
+case "$1" in
+  gate) echo "$*" >>gates ;;
+  bench) exec ./sipplab "$@" --robots 2 --map empty:8x8 --ssi 0 --reschedule none --order shortest --count 1 ;;
+  report) ;;
+  *) exec ./sipplab "$@" ;;
+esac
+TEXT
+sed -i "s|gates|$work/gates|; s|\./sipplab|$sipplab|" asked && chmod +x asked
+pull_request() { # HISTORY: how many calibrations it asks for
+  : >gates
+  runs 0 "$scripts/pull-request" --programs ./asked ./asked --history "$1" --calibrate 1 -o requested
+  equal "$(grep -c -- --calibrate gates)" "$2" "calibrations asked for, where $3"
+}
+pull_request none.db 1 'there is no history'
+pull_request gate.db 0 'the noise is known'
+cp gate.db elsewhere.db && sqlite3 elsewhere.db "UPDATE machine SET fingerprint = 'another'"
+pull_request elsewhere.db 1 'another machine measured its noise'
+cp gate.db excluded.db
+expect 0 runs --exclude "$(ask "SELECT gate_run FROM v_gate_runs WHERE kind = 'calibration'")" --reason busy --db excluded.db
+pull_request excluded.db 1 'the calibration is excluded'
 
 # Nothing in common, or nothing there.
 expect 0 bench --suite smoke --map empty:8x8 --robots 2 --ssi 0 --reschedule none --order shortest --count 1 --db gate.db

@@ -213,6 +213,10 @@ expect 0 trend success --svg trend.svg --json
 says '"after": 0.666'
 says '<path' trend.svg
 says '</svg>' trend.svg
+expect 0 trend success --svg trend.pdf
+equal "$(head -c 5 trend.pdf)" '%PDF-' 'a picture of a trend that is called .pdf'
+refused 'trend.png: no picture, expected a name that ends in .svg or .pdf' trend success --svg trend.png
+[ ! -e trend.png ] || complain 'a picture of a trend that was refused'
 expect 0 trend runtime --rows 3
 expect 0 trend success --case 1 --min-effect 0.5
 says 'no change of level'
@@ -344,6 +348,13 @@ refused 'no query' sql --file /dev/null
   head -1 >/dev/null
 equal "${PIPESTATUS[0]}" 141 'exit code with a closed pipe'
 equal "$(cat err)" '' 'words about a closed pipe'
+# Several files are named, line by line: the reader has gone before the second.
+mkfifo gone
+exec 5<>gone 4>gone 5>&-
+"$sipplab" report -o report 2>err >&4
+equal "$?" 141 'exit code of several lines with a closed pipe'
+equal "$(cat err)" '' 'words about several lines and a closed pipe'
+exec 4>&-
 refused 'too big while running the query' sql 'SELECT zeroblob(2000000000)'
 
 # Every command of the cookbook answers, and with at least one row where this history has any.
@@ -354,6 +365,29 @@ while IFS= read -r line; do
   [[ $line == *property* || $line == *finding* || $line == *v_progress* || $line == *" plot "* ]] || [ "$(wc -l <out)" -gt 2 ] || complain "no answer: $line"
 done < <(sed -n 's/^    \(build\/release\/sipplab .*\)/\1/p' "$cookbook")
 [ "$questions" -ge 10 ] || complain "$questions questions in the cookbook, expected 10 or more"
+
+# What compare can see of success is in points, as in its reports.
+trials=("$(dirname "$cookbook")/../scripts/trials" compare --runs sipplab.db 00000000-0000-4000-8000-000000000001
+  00000000-0000-4000-8000-000000000002 --build "$sipplab" --equal 0 --worse success 0.5 1 --worse flowtime 0.2 1)
+runs 0 "${trials[@]}"
+says '^success 0.5 .*, from [0-9.]+ points$'
+says '^flowtime 0.2 .*, from [0-9.]+ %$'
+
+# Failures are never fast: what takes means or quantiles of times, here or in the examples of the views, says the same
+# however long failures took. Rows with a status beside are of single plannings.
+cp sipplab.db failures.db
+ask "UPDATE result SET planning_time_ns = planning_time_ns * 1024, cpu_time_ns = cpu_time_ns * 1024 WHERE status <> 0" failures.db
+expect 0 doctor --fix --db failures.db
+{
+  sed -n 's/^    build\/release\/sipplab sql "\(.*\)"$/\1/p' "$cookbook"
+  "$sipplab" sql --list | sed -n 's/^    SELECT/SELECT/p'
+} | grep -v ' status,' >asked
+[ "$(wc -l <asked)" -gt 40 ] || complain "$(wc -l <asked) questions about times, expected those of every view"
+while IFS= read -r line; do
+  expect 0 sql "$line" && cp out sooner
+  expect 0 sql "$line" --db failures.db
+  cmp -s sooner out || complain "times of failures are in the answer: $line"
+done <asked
 
 [ "$broken" -eq 0 ] && echo "history: everything as promised, $questions questions of the cookbook"
 exit "$((broken > 0))"

@@ -91,6 +91,16 @@ equal "$(ask 'SELECT count(*), sum(abs(p.flowtime_bound_s - r.flowtime_bound_s) 
   'the bounds of improvement are those of the instance'
 equal "$(ask 'SELECT count(DISTINCT flowtime_s) FROM (SELECT flowtime_s FROM v_progress GROUP BY repetition HAVING step = min(step))')" 1 \
   'curves begin with the plan of LaCAM, the one that is improved'
+# A run that is named is drawn though it is excluded, by any picture.
+expect 0 plot improvement latest --db curves.db -o included.svg
+named=$(ask 'SELECT uuid FROM run')
+expect 0 runs --exclude "$named" --reason 'machine was busy' --db curves.db
+refused 'no run yet' plot improvement --db curves.db
+for picture in improvement success cactus; do
+  expect 0 plot "$picture" "$named" --db curves.db -o "excluded-$picture.svg"
+done
+cmp -s included.svg excluded-improvement.svg || complain 'an excluded run is drawn otherwise'
+expect 0 runs --include "$named" --db curves.db
 expect 0 "${sweep[@]}" --no-best --improve 0.05s --objective makespan
 equal "$(ask "SELECT limit_struck, status FROM v_results WHERE planner LIKE '% improve:0.05s objective:makespan'")" \
   'time|solved' 'the clock ended the improvement'

@@ -106,9 +106,9 @@ TEST(Charts, are_drawn_as_a_file_within_a_page_and_as_pdf) {
   }
   EXPECT_EQ(count(*page, "'gpPt") + count(*page, "#gpPt"), 0U);
   EXPECT_EQ(picture_of(sample_chart(), PictureFormat::kPdf).substr(0, 5), "%PDF-");
-  EXPECT_EQ(picture_format("a.pdf"), PictureFormat::kPdf);
-  EXPECT_EQ(picture_format("a.svg"), PictureFormat::kSvg);
-  EXPECT_EQ(picture_format("svg"), std::nullopt);
+  EXPECT_EQ(picture_format("a.pdf").value(), PictureFormat::kPdf);
+  EXPECT_EQ(picture_format("a.svg").value(), PictureFormat::kSvg);
+  EXPECT_FALSE(picture_format("svg").has_value());
 }
 
 TEST(Charts, draw_nothing_and_single_points_and_constants) {
