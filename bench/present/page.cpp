@@ -22,8 +22,6 @@ namespace {
 constexpr std::size_t kShortUuid = 8;
 constexpr std::size_t kMinuteLength = 16;  // "2026-01-31T12:00"
 constexpr std::size_t kMostFlips = 200;
-/// Differences that are less certain have no colour.
-constexpr double kColourLevel = 0.05;
 
 std::string minute(const std::string& utc) {
   std::string text = utc.substr(0, kMinuteLength);
@@ -109,7 +107,7 @@ class Page {
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     return "-";
   }
-  /// The colour of a column of the comparison, by the test of its metric.
+  /// The colour of a column of the comparison, by the verdict on its metric there.
   static std::string colour(const Judgement& judgement, const std::string& column,
                             std::optional<std::size_t> cell) {
     const std::pair<std::string_view, const Metric*> columns[] = {{"lost", &kSuccess},
@@ -119,7 +117,8 @@ class Page {
                                                                   {kExpansions.name, &kExpansions}};
     for (const auto& [name, metric] : columns) {
       const Difference* row = name == column ? judgement.find(*metric, cell) : nullptr;
-      if (row != nullptr && row->adjusted_p <= kColourLevel) return row->effect > 0 ? "bad" : "good";
+      if (row != nullptr && row->verdict == Verdict::kRegressed) return "bad";
+      if (row != nullptr && row->verdict == Verdict::kImproved) return "good";
     }
     return "";
   }
@@ -130,7 +129,8 @@ class Page {
     const Judgement& judgement = data_.against_base;
     note(fmt::format("{}: {}.", name(judgement.all.verdict), judgement.all.reason));
     note(
-        "Coloured: what a test does not call chance. Time: median of single plannings that did not run in "
+        "Coloured: what is worse or better for certain, by more than its floor. Time: median of single "
+        "plannings that did not run in "
         "turn, on "
         "one machine only; no test judges it. sipplab compare tells more; sipplab gate decides about times.");
     const std::vector<TextRow> table = behaviour_table(judgement);

@@ -141,10 +141,18 @@ sqlite3 plans.db "UPDATE result SET plan_hash = 2 WHERE status = 0 AND position 
 expect 0 compare "$(plans 0)" "$(plans 1)" --db plans.db
 says '^CHANGED: [0-9]+ of 48 plannings changed; flowtime \+0.0 %'
 expect 5 compare "$(plans 0)" "$(plans 1)" --db plans.db --exact
-sqlite3 plans.db "UPDATE result SET flowtime_s = 1.2 * flowtime_s, plan_hash = 2 WHERE status = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
+worse="WHERE status = 0 AND cell_id IN (SELECT cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '$(plans 1)')"
+sqlite3 plans.db "UPDATE result SET flowtime_s = 1.2 * flowtime_s, plan_hash = 2 $worse"
 expect 1 compare "$(plans 0)" "$(plans 1)" --db plans.db
 says '^REGRESSED: flowtime \+20.0 % \(95 %: \+20.0 to \+20.0\)'
 expect 0 compare "$(plans 0)" "$(plans 1)" --db plans.db --floor quality=30
+expect 0 report "$(plans 1)" --base "$(plans 0)" --db plans.db -o page
+says '"n bad">\+20.0 %' page/index.html
+# As certain, but less than matters: no colour.
+sqlite3 plans.db "UPDATE result SET flowtime_s = 1.0005 * flowtime_s / 1.2 $worse"
+expect 0 report "$(plans 1)" --base "$(plans 0)" --db plans.db -o page
+grep -qE '"n (bad|good)"' page/index.html && complain "a colour for half of a thousandth"
+sqlite3 plans.db "UPDATE result SET flowtime_s = 1.2 * flowtime_s / 1.0005 $worse"
 expect 0 compare "$(plans 1)" "$(plans 0)" --db plans.db
 says 'flowtime -16.7 %'
 refused "'speed=1', expected one like success=1,quality=0.2" compare a b --floor speed=1
