@@ -114,9 +114,11 @@ Command add_trend_command(CLI::App& program) {
   command->footer(
       "One point for each commit: the median of its runs; builds with uncommitted changes are points of\n"
       "their own. Times are compared on one machine and kind of build only, results on one set of\n"
-      "instances: a case that was planned on several sets has a series for each. A change is marked when it "
-      "is\n"
-      "significant over all series shown and not too small; it informs, `sipplab gate` decides.");
+      "instances: a case that was planned on several sets has a series for each. Flowtime, makespan and\n"
+      "mean-runtime are means over the plannings that all versions shown solved, with the share that each\n"
+      "solved beside; where there are none no change is marked. Runs that solved none are left out.\n"
+      "A change is marked when it is significant over all series shown and not too small; it informs,\n"
+      "`sipplab gate` decides.");
   return {command, [arguments] { return run_trend(*arguments); }};
 }
 
