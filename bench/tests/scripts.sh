@@ -68,7 +68,7 @@ printf '#!/bin/sh\n' >scripts/setup && chmod +x scripts/setup
 cat >sipplab.sh <<'TEXT'
 #!/bin/sh
 case "$1" in
-  bench) printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
+  bench) echo "$@" >>"$LOG" && printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
   sql) printf 'count(*)\r\n0\r\n' ;;
   gate)
     echo "$@" >>"$LOG"
@@ -126,6 +126,21 @@ grep -q -- --expect-changes "$LOG" || complain 'pull-request did not pass on wha
 : >"$LOG" && judge scripts/pull-request HEAD~3 --calibrate 2
 grep -q -- '--calibrate --comparisons 2' "$LOG" || complain 'pull-request did not measure the noise'
 ! grep ': line [0-9]*: \[' "$work.err" || complain 'pull-request compares what is no number'
+
+# What landed on the base branch since is not the change's: the base is where the branch left it.
+left=$(git rev-parse HEAD~3)
+git branch change && git checkout -q "$left"
+echo 1 >code && echo landed >number && save 'landed on the base branch, and said: Plans: changed'
+git branch landed && git checkout -q change
+: >"$LOG" && judge scripts/pull-request landed
+grep -q -- "--base $PWD/build/base/$left/build/release/sipplab" "$LOG" ||
+  complain "pull-request did not compare with where the branch left: $(cat "$LOG" "$work.err")"
+[ ! -e "build/base/$(git rev-parse landed)" ] || complain 'pull-request built what it does not compare with'
+grep -q "^scripts/pull-request: .* $left" "$work.err" || complain 'pull-request does not say with which commit it compares'
+git checkout -q --orphan stranger && git rm -rq --cached . && git add -f number && save 'no common commit'
+git checkout -qf change
+judge scripts/pull-request stranger
+[ $? -eq 2 ] && grep -q 'stranger and the checkout, expected' "$work.err" || complain "pull-request with a stranger: $(cat "$work.err")"
 
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"
