@@ -32,6 +32,8 @@ struct Judged {
   std::size_t head_solved = 0;
   std::size_t both_solved = 0;
   std::size_t newly_invalid = 0;  ///< plans of the head
+  std::size_t tasks = 0;          ///< beside plannings: those of the gate's laboratory, over all cells
+  std::size_t other_tasks = 0;    ///< those with another outcome
   /// Mean time, an unsolved planning counting as twice the limit (PAR-2); none without a limit.
   std::optional<double> base_par2_s;
   std::optional<double> head_par2_s;
