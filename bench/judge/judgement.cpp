@@ -193,6 +193,15 @@ std::string tasks_text(const Judged& judged) {
   return fmt::format("{} of {} tasks beside planning gave another outcome", judged.other_tasks, judged.tasks);
 }
 
+/// Who says that plans are meant to differ has not said that fewer are found: net losses that may be chance
+/// are told, and do not pass as what was expected.
+void doubt_losses(Judgement& judgement) {
+  for (Difference& row : judgement.differences) {
+    const bool lost = row.metric == &kSuccess && !row.cell && row.effect > 0;
+    if (lost && row.verdict == Verdict::kChanged) row.verdict = Verdict::kInconclusive;
+  }
+}
+
 void judge_behaviour(Judgement& judgement) {
   std::vector<Judged*> all = {&judgement.all};
   for (Judged& cell : judgement.cells) all.push_back(&cell);
@@ -386,6 +395,7 @@ void judge(Judgement& judgement, const JudgeOptions& options) {
   const bool same_plans = judgement.all.other_plans == 0;
   judge_recorded(pooled, options.floors, same_plans);
   judge_recorded(cells, options.floors, same_plans);
+  if (options.expects_changes && !same_plans) doubt_losses(judgement);
   const bool excused = slower && !options.times_excuse.empty() && judgement.findings.empty();
   judge_metrics(judgement, excused);
   for (std::size_t i = 0; i < judgement.cells.size(); ++i) complete(judgement, i, options.expects_changes);

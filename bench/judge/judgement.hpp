@@ -48,7 +48,7 @@ struct Judged {
 
 struct JudgeOptions {
   Floors floors;
-  bool expects_changes = false;  ///< says so where plans changed
+  bool expects_changes = false;  ///< says so where plans changed, which then net losses make inconclusive
   std::string times_excuse;      ///< why slowdowns are noise if behaviour is the same; empty if they count
 };
 

@@ -212,6 +212,17 @@ TEST(Judgement, ALossThatIsSmallerThanWhatMattersIsNoAlarm) {
   EXPECT_EQ(row(few, kSuccess, std::nullopt).verdict, Verdict::kChanged);
   EXPECT_NE(few.all.reason.find(", within chance (sees from 34.2 points on)"), std::string::npos)
       << few.all.reason;
+  // Who expects other plans has not said that fewer are found.
+  JudgeOptions expected;
+  expected.expects_changes = true;
+  const Judgement doubted = judgement_of(with_lost(144, 15, 1), expected);
+  EXPECT_EQ(doubted.all.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(
+      doubted.all.reason.find("success -0.7 points (95 %: -2.2 to +0.8): 1 of 144 plannings lost, 0 gained, "
+                              "p = 1, which may be chance (sees from 34.2 points on)"),
+      0U)
+      << doubted.all.reason;
+  EXPECT_EQ(judgement_of(with_lost(900, 100, 3), expected).all.verdict, Verdict::kChanged);
   JudgeOptions strict;
   strict.floors[db::MetricKind::kSuccess] = 0;
   EXPECT_EQ(judgement_of(with_lost(900, 100, 3), strict).all.verdict, Verdict::kInconclusive);
