@@ -93,8 +93,9 @@ Command add_trend_command(CLI::App& program) {
   add_case_flag(*command, arguments->cases);
   command->add_option("--suite", arguments->suite, "only runs of this suite");
   command->add_option("--branch", arguments->branch, "only runs of a checkout of this branch");
-  command->add_option("--machine", arguments->machine,
-                      "only this host, or this beginning of a machine fingerprint");
+  command->add_option(
+      "--machine", arguments->machine,
+      "only this host (or $SIPPLAB_MACHINE of its runs), or this beginning of a machine fingerprint");
   command->add_option("--rows", arguments->rows, "number of newest versions to show of a single case")
       ->capture_default_str();
   command
