@@ -43,6 +43,9 @@ struct PairedCell {
   std::string base_planner;
   std::string base_run;  ///< UUID
   std::string head_run;
+  /// Else a task beside planning, of the gate: whether its outcomes differ is compared, and no metric is of
+  /// them.
+  bool is_planning = true;
   bool same_machine = false;
   bool same_program = false;
   std::vector<PairedResult> results;

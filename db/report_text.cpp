@@ -93,7 +93,9 @@ std::string format_cells(const std::vector<CellSummary>& cells) {
   return align(heading, rows, to_the_right) +
          "median time: an unsolved result counts as the longest; PAR-2: mean time, an unsolved one as twice "
          "the "
-         "limit\n";
+         "limit\n"
+         "makespan, flowtime: means over what this run solved; `sipplab compare` compares runs where both "
+         "solve\n";
 }
 
 /// A single wide row reads better as a line for each column that has a value.

@@ -32,12 +32,18 @@ struct Sample {
   std::int64_t ancestor_count = 0;
   std::string started_utc;
   double value = 0;
+  std::int64_t cell = 0;  ///< its plannings, of a case
+  std::int64_t solved = 0;
+  std::int64_t results = 0;
 };
 
 /// Columns that every source of samples gives after the context, in this order.
 constexpr const char* kSampleColumns =
     "ifnull(commit_hash, ''), ifnull(commit_subject, ''), ifnull(committed_utc, started_utc), "
     "ifnull(ancestor_count, 0), started_utc, dirty, binary_hash, value";
+/// And these behind them.
+constexpr const char* kPlanningColumns = "cell, solved, results";
+constexpr const char* kNoPlannings = "0, 0, 0";
 
 Sample read_sample(const Statement& row, int column) {
   Sample sample;
@@ -49,7 +55,10 @@ Sample read_sample(const Statement& row, int column) {
   sample.dirty = row.integer(column++) != 0;
   const std::string binary = row.text(column++);
   if (sample.dirty || sample.commit.empty()) sample.binary = binary;
-  sample.value = row.real(column);
+  sample.value = row.real(column++);
+  sample.cell = row.integer(column++);
+  sample.solved = row.integer(column++);
+  sample.results = row.integer(column);
   return sample;
 }
 
@@ -71,7 +80,7 @@ void place_unknown(std::vector<Sample>& samples) {
   }
 }
 
-std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
+std::vector<TrendPoint> points_of(std::vector<Sample> samples, bool of_solved) {
   place_unknown(samples);
   const auto place = [](const Sample& sample) {
     return std::tie(sample.ancestor_count, sample.committed_utc, sample.commit, sample.dirty,
@@ -93,11 +102,18 @@ std::vector<TrendPoint> points_of(std::vector<Sample> samples) {
   std::vector<TrendPoint> points;
   for (const std::vector<const Sample*>& runs : versions) {
     std::vector<double> values;
-    for (const Sample* sample : runs) values.push_back(sample->value);
+    double solved = 0;
+    double results = 0;
+    for (const Sample* sample : runs) {
+      values.push_back(sample->value);
+      solved += static_cast<double>(sample->solved);
+      results += static_cast<double>(sample->results);
+    }
     const Sample& first = *runs.front();
     points.push_back({first.commit, first.dirty, first.subject, first.committed_utc, first.started_utc,
                       first.ancestor_count, static_cast<std::int64_t>(values.size()),
                       statistics::median(values).value_or(0)});
+    if (of_solved) points.back().solved_share = solved / results;
   }
   return points;
 }
@@ -217,21 +233,75 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
       database.connection(),
       fmt::format(
           "SELECT {}, (SELECT group_concat(instance_id) FROM "
-          "  (SELECT DISTINCT instance_id FROM result WHERE cell_id = "
-          "    (SELECT cell.id FROM cell JOIN run ON run.id = cell.run_id "
-          "     WHERE run.uuid = place.run AND cell.case_id = place.case_id) "
-          "   ORDER BY instance_id)), {} "
+          "  (SELECT DISTINCT instance_id FROM result WHERE cell_id = place.cell ORDER BY instance_id)), {}, "
+          "{} "
           "FROM (SELECT commit_hash, commit_subject, committed_utc, started_utc, ancestor_count, dirty, "
           "  binary_hash, case_id, run, suite, branch, host, machine, compiler, compiler_version, "
-          "  build_type, assertions, sanitizers, excluded_reason, (SELECT {} FROM cell_summary AS summary "
-          "    WHERE summary.case_id = v_trends.case_id "
+          "  build_type, assertions, sanitizers, excluded_reason, solved, results, "
+          "  (SELECT cell.id FROM cell JOIN run ON run.id = cell.run_id "
+          "    WHERE run.uuid = v_trends.run AND cell.case_id = v_trends.case_id) AS cell, "
+          "  (SELECT {} FROM cell_summary AS summary WHERE summary.case_id = v_trends.case_id "
           "    AND run_id = (SELECT id FROM run WHERE uuid = v_trends.run)) AS value "
           "  FROM v_trends WHERE metric = 'success') AS place WHERE case_id = ?1 "
           "AND value IS NOT NULL AND excluded_reason IS NULL AND (?2 IS NULL OR suite = ?2) "
           "AND (?3 IS NULL OR branch = ?3) "
           "AND (?4 IS NULL OR host = ?4 OR substr(machine, 1, length(?4)) = ?4)",
-          context, kSampleColumns, metric.sql),
+          context, kSampleColumns, kPlanningColumns, metric.sql),
       kReadingTrend);
+}
+
+/// Values of the solved plannings of a cell, by what tells them apart in every run of the case: instance,
+/// repetition, and which of equal files it is.
+using SolvedValues = std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, double>;
+
+Result<SolvedValues> solved_values(Statement& select, std::int64_t cell) {
+  SolvedValues values;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> occurrences;
+  select.reset();
+  SIPPLAB_TRY(select.bind(cell).for_each([&] {
+    const std::pair planning(select.integer(0), select.integer(1));
+    const std::int64_t occurrence = occurrences[planning]++;
+    if (select.integer(2) != static_cast<int>(ResultStatus::kSolved)) return;
+    values[{planning.first, planning.second, occurrence}] = select.real(3);
+  }));
+  return values;
+}
+
+/// Makes the values of runs of a series means over the plannings that all of them solved, as `sipplab
+/// compare` pairs those of two: a version that fails on the hardest instance has no better plans.
+Result<Done> compare_solved(Database& database, std::string_view value, std::vector<Sample>& samples,
+                            TrendSeries& series) {
+  bool all_solved = true;
+  for (const Sample& sample : samples) {
+    all_solved = all_solved && sample.solved == samples.front().results && sample.solved == sample.results;
+    series.plannings = std::max(series.plannings, sample.results);
+  }
+  series.solved_by_all = series.plannings;
+  if (all_solved) return Done{};
+  auto select = SIPPLAB_TRY(Statement::prepare(
+      database.connection(),
+      fmt::format("SELECT instance_id, repetition, status, {} FROM result WHERE cell_id = ? "
+                  "ORDER BY instance_id, position, repetition",
+                  value),
+      kReadingTrend));
+  std::vector<SolvedValues> runs;
+  for (const Sample& sample : samples) {
+    auto solved = SIPPLAB_TRY(solved_values(select, sample.cell));
+    if (!runs.empty()) {
+      SolvedValues& common = runs.front();
+      std::erase_if(common, [&solved](const auto& planning) { return !solved.contains(planning.first); });
+    }
+    runs.push_back(std::move(solved));
+  }
+  const SolvedValues& common = runs.front();
+  series.solved_by_all = static_cast<std::int64_t>(common.size());
+  if (common.empty()) return Done{};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    double sum = 0;
+    for (const auto& [planning, ignored] : common) sum += runs[i].at(planning);
+    samples[i].value = sum / static_cast<double>(common.size());
+  }
+  return Done{};
 }
 
 Result<std::vector<TrendSeries>> read_case_trends(Database& database, const TrendQuery& query) {
@@ -243,9 +313,12 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
     auto samples = SIPPLAB_TRY(read_samples(select));
     select.reset();
     std::map<std::string, std::string> names = set_names(samples);
+    const std::string_view of_solved = query.metric->of_solved;
     for (auto& [key, values] : samples) {
-      series.push_back(
-          {named.id, named.label, names[key.instances], key.context, points_of(std::move(values)), {}});
+      TrendSeries one{named.id, named.label, names[key.instances], key.context, {}, {}};
+      if (!of_solved.empty()) SIPPLAB_TRY(compare_solved(database, of_solved, values, one));
+      one.points = points_of(std::move(values), !of_solved.empty());
+      series.push_back(std::move(one));
     }
   }
   return series;
@@ -254,11 +327,12 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
 Result<std::vector<TrendSeries>> read_commit_trend(Database& database, const TrendQuery& query) {
   auto select = SIPPLAB_TRY(Statement::prepare(
       database.connection(),
-      fmt::format("SELECT context, '', {} FROM ({})", kSampleColumns, query.metric->sql), kReadingTrend));
+      fmt::format("SELECT context, '', {}, {} FROM ({})", kSampleColumns, kNoPlannings, query.metric->sql),
+      kReadingTrend));
   auto samples = SIPPLAB_TRY(read_samples(select));
   std::vector<TrendSeries> series;
   for (auto& [key, values] : samples) {
-    series.push_back({0, key.context, "", "", points_of(std::move(values)), {}});
+    series.push_back({0, key.context, "", "", points_of(std::move(values), false), {}});
   }
   return series;
 }
@@ -307,6 +381,7 @@ void mark_changes(std::vector<TrendSeries>& series, const TrendMetric& metric, c
   std::vector<Test> tests;
   std::vector<double> p_values;
   for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!series[i].is_comparable()) continue;
     std::vector<double> values;
     for (const TrendPoint& point : series[i].points) values.push_back(point.value);
     for (const statistics::Division& division : statistics::divide(values, rules.search)) {

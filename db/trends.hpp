@@ -32,6 +32,9 @@ struct TrendMetric {
   /// Of a case: an expression over the columns of cell_summary. Else a SELECT with the columns context,
   /// commit_hash, commit_subject, committed_utc, ancestor_count, started_utc, dirty, binary_hash, value.
   std::string sql = {};
+  /// Of a case, and of solved plannings alone: an expression over the columns of result. The trend is then a
+  /// mean over the plannings that all runs of a series solved; `sql` is over those that each solved.
+  std::string_view of_solved = {};
 };
 
 const std::vector<TrendMetric>& trend_metrics();
@@ -68,6 +71,7 @@ struct TrendPoint {
       0;  ///< of the commit, by which points are in order; or that of those before it
   std::int64_t runs = 0;
   double value = 0;
+  std::optional<double> solved_share = {};  ///< of all its plannings, for metrics of solved ones
 };
 
 struct TrendChange {
@@ -86,9 +90,16 @@ struct TrendSeries {
   std::string context;             ///< machine and build, of timed metrics
   std::vector<TrendPoint> points;  ///< in order of history
   std::vector<TrendChange> changes;
+  /// Of metrics of solved plannings: how many a run made, and how many of them all runs solved.
+  std::int64_t plannings = 0;
+  std::int64_t solved_by_all = 0;
+
+  /// Else each value is over other plannings, and no change is one of the planner.
+  bool is_comparable() const { return plannings == 0 || solved_by_all > 0; }
 };
 
-/// Series with at least one point, by case, context and set of instances. Excluded runs are left out.
+/// Series with at least one point, by case, context and set of instances. Excluded runs are left out, and of
+/// metrics of solved plannings those that solved none.
 Result<std::vector<TrendSeries>> read_trend(Database& database, const TrendQuery& query);
 
 struct ChangeRules {
@@ -97,7 +108,7 @@ struct ChangeRules {
   std::optional<double> min_effect;  ///< instead of the metric's
 };
 
-/// Fills in the changes of all series, judged together.
+/// Fills in the changes of all series that are comparable, judged together.
 void mark_changes(std::vector<TrendSeries>& series, const TrendMetric& metric, const ChangeRules& rules = {});
 
 /// after / before - 1, or after - before for rates. Infinite if the level before is 0.

@@ -83,7 +83,8 @@ std::string manual_page(const CLI::App& program) {
   for (const CLI::App* command : commands_of(program)) add_command(*command, page);
   return page +
          ".SH ENVIRONMENT\n.TP\n.B SIPPLAB_DB\nThe history file if \\-\\-db is not given; else "
-         "./sipplab.db.\n";
+         "./sipplab.db.\n.TP\n.B SIPPLAB_MACHINE\nThe name of this machine in histories; else its host "
+         "name.\n";
 }
 
 /// What can follow the words of a command: its commands and its flags.

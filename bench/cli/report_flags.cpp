@@ -13,7 +13,7 @@ namespace {
 /// Unexpected other plans fail, even if it is unclear whether they are worse.
 int exit_code(const bench::Judged& all, bool expects_changes) {
   if (all.verdict == bench::Verdict::kRegressed) return kNegativeVerdict;
-  if (all.other_plans > 0 && !expects_changes) return kChangedPlans;
+  if (all.other_plans + all.other_tasks > 0 && !expects_changes) return kChangedPlans;
   return all.verdict == bench::Verdict::kInconclusive ? kInconclusive : kSuccess;
 }
 

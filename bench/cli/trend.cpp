@@ -93,8 +93,9 @@ Command add_trend_command(CLI::App& program) {
   add_case_flag(*command, arguments->cases);
   command->add_option("--suite", arguments->suite, "only runs of this suite");
   command->add_option("--branch", arguments->branch, "only runs of a checkout of this branch");
-  command->add_option("--machine", arguments->machine,
-                      "only this host, or this beginning of a machine fingerprint");
+  command->add_option(
+      "--machine", arguments->machine,
+      "only this host (or $SIPPLAB_MACHINE of its runs), or this beginning of a machine fingerprint");
   command->add_option("--rows", arguments->rows, "number of newest versions to show of a single case")
       ->capture_default_str();
   command
@@ -114,9 +115,11 @@ Command add_trend_command(CLI::App& program) {
   command->footer(
       "One point for each commit: the median of its runs; builds with uncommitted changes are points of\n"
       "their own. Times are compared on one machine and kind of build only, results on one set of\n"
-      "instances: a case that was planned on several sets has a series for each. A change is marked when it "
-      "is\n"
-      "significant over all series shown and not too small; it informs, `sipplab gate` decides.");
+      "instances: a case that was planned on several sets has a series for each. Flowtime, makespan and\n"
+      "mean-runtime are means over the plannings that all versions shown solved, with the share that each\n"
+      "solved beside; where there are none no change is marked. Runs that solved none are left out.\n"
+      "A change is marked when it is significant over all series shown and not too small; it informs,\n"
+      "`sipplab gate` decides.");
   return {command, [arguments] { return run_trend(*arguments); }};
 }
 

@@ -66,6 +66,7 @@ class Comparison {
     for (const GateCell& cell : cases_.cells()) {
       db::PairedCell paired;
       paired.parameters = cell.row;
+      paired.is_planning = cell.task == GateTask::kPlan;
       paired.same_machine = true;
       for (const std::size_t job : cell.jobs) {
         const db::InstanceInfo& instance = cases_.jobs()[job].row;
@@ -276,8 +277,8 @@ db::GateRun gate_record(const GateRequest& request, const GateCases& cases, cons
   run.wall_time_ns = std::llround(result.wall_s * kNanosecondsPerSecond);
   run.started_utc = result.started_utc;
   const Judgement& judgement = result.judgement;
-  run.compared = static_cast<std::int64_t>(judgement.all.compared);
-  run.differing = static_cast<std::int64_t>(judgement.all.differing);
+  run.compared = static_cast<std::int64_t>(judgement.all.compared + judgement.all.tasks);
+  run.differing = static_cast<std::int64_t>(judgement.all.differing + judgement.all.other_tasks);
   run.verdict = recorded_name(judgement.all.verdict);
   run.reason = judgement.all.reason;
   for (const Difference& row : judgement.differences) {

@@ -32,6 +32,8 @@ struct Judged {
   std::size_t head_solved = 0;
   std::size_t both_solved = 0;
   std::size_t newly_invalid = 0;  ///< plans of the head
+  std::size_t tasks = 0;          ///< beside plannings: those of the gate's laboratory, over all cells
+  std::size_t other_tasks = 0;    ///< those with another outcome
   /// Mean time, an unsolved planning counting as twice the limit (PAR-2); none without a limit.
   std::optional<double> base_par2_s;
   std::optional<double> head_par2_s;
@@ -46,7 +48,7 @@ struct Judged {
 
 struct JudgeOptions {
   Floors floors;
-  bool expects_changes = false;  ///< says so where plans changed
+  bool expects_changes = false;  ///< says so where plans changed, which then net losses make inconclusive
   std::string times_excuse;      ///< why slowdowns are noise if behaviour is the same; empty if they count
 };
 

@@ -38,7 +38,7 @@ double p_of_its_side(const Difference& row) {
 
 TextRow behaviour_row(const Judgement& judgement, Cell number, bool times) {
   const Judged& cell = judgement.at(number);
-  const Difference& success = *judgement.find(kSuccess, number);
+  const Difference* success = judgement.find(kSuccess, number);  // of plannings alone
   const Difference* flowtime = judgement.find(kFlowtime, number);
   const bool repeated = cell.instances != cell.compared;
   const bool timed = times && cell.base_par2_s;
@@ -46,9 +46,9 @@ TextRow behaviour_row(const Judgement& judgement, Cell number, bool times) {
           repeated ? fmt::format("{} ({})", cell.instances, cell.compared) : std::to_string(cell.compared),
           std::to_string(cell.differing),
           fmt::format("{} -> {}", cell.base_solved, cell.head_solved),
-          std::to_string(success.lost),
-          std::to_string(success.gained),
-          p_text(&success),
+          success == nullptr ? kNothing : std::to_string(success->lost),
+          success == nullptr ? kNothing : std::to_string(success->gained),
+          p_text(success),
           times ? effect_text(judgement.find(kSweepTime, number)) : kNothing,
           timed ? fmt::format("{:.3g} -> {:.3g}", *cell.base_par2_s, *cell.head_par2_s) : kNothing,
           std::to_string(cell.both_solved),
@@ -333,7 +333,8 @@ std::string report_junit(const Report& report) {
   const auto add = [&](const std::string& title, const Judged& judged) {
     JunitCase test;
     test.name = title;
-    if (judged.verdict == Verdict::kRegressed || (report.changes_fail && judged.other_plans > 0)) {
+    const bool changed = judged.other_plans + judged.other_tasks > 0;
+    if (judged.verdict == Verdict::kRegressed || (report.changes_fail && changed)) {
       test.failure = judged.reason;
     } else if (judged.verdict == Verdict::kInconclusive) {
       test.skipped = judged.reason;

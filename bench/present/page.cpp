@@ -239,6 +239,7 @@ class Page {
       }
       Chart chart = trend_chart(*trend.metric, {series});
       chart.title = series.instances.empty() ? series.label : series.label + ", " + series.instances;
+      if (!series.is_comparable()) chart.title += " (not comparable: no planning is solved by all)";
       if (!series.context.empty()) chart.x_label = series.context;
       chart.width = 380;
       chart.height = 220;

@@ -48,6 +48,11 @@ std::string short_label(const db::TrendSeries& series) {
   return fmt::format("case {}{}{}", series.case_id, series.instances.empty() ? "" : ", ", series.instances);
 }
 
+/// "7 of 10": plannings that all versions solved. Empty if the metric is not of solved ones.
+std::string solved_by_all(const db::TrendSeries& series) {
+  return series.plannings == 0 ? "" : fmt::format("{} of {}", series.solved_by_all, series.plannings);
+}
+
 /// Changes of one version stand together: a commit that slows one case slows many.
 std::string changes_text(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series,
                          bool contexts) {
@@ -96,6 +101,11 @@ std::string one_series(const db::TrendMetric& metric, const db::TrendSeries& ser
                                  series.case_id > 0 ? fmt::format(" (case {})", series.case_id) : "",
                                  sparkline(values, kWideSparkline), with_unit(*low, metric.unit),
                                  with_unit(*high, metric.unit), values.size(), values.size() == 1 ? "" : "s");
+  const bool of_solved = series.plannings > 0;
+  if (of_solved && series.is_comparable()) {
+    text.insert(text.size() - 2,
+                fmt::format("; over the {} plannings that all solved", solved_by_all(series)));
+  }
   const std::size_t begin = values.size() > rows ? values.size() - rows : 0;
   std::vector<std::vector<std::string>> table;
   for (std::size_t i = begin; i < series.points.size(); ++i) {
@@ -105,25 +115,48 @@ std::string one_series(const db::TrendMetric& metric, const db::TrendSeries& ser
     table.push_back({version_name(point), point.committed_utc.substr(0, kDateLength),
                      with_unit(point.value, metric.unit), std::to_string(point.runs), changes ? "*" : "",
                      db::escaped(shortened(point.subject, kSubjectLength))});
+    if (of_solved)
+      table.back().insert(table.back().begin() + 3, short_number(point.solved_share.value_or(0)));
   }
-  text += db::align({"version", "date", std::string(metric.name), "runs", " ", "subject"}, table,
-                    {false, false, true, true, false, false});
+  std::vector<std::string> heading = {"version", "date", std::string(metric.name), "runs", " ", "subject"};
+  std::vector<bool> to_the_right = {false, false, true, true, false, false};
+  if (of_solved) {
+    heading.insert(heading.begin() + 3, "solved");
+    to_the_right.insert(to_the_right.begin() + 3, true);
+  }
+  text += db::align(heading, table, to_the_right);
   if (begin > 0) text += fmt::format("({} older versions; --rows shows more)\n", begin);
+  if (!series.is_comparable()) {
+    text += "no planning is solved by all: each value is of other plannings, and no change is marked\n";
+  }
   return text;
 }
 
 std::string overview(const db::TrendMetric& metric, const std::vector<db::TrendSeries>& series,
                      bool contexts) {
+  std::vector<std::string> heading = {"case", "parameters", "versions", "first",
+                                      "last", "changes",    "history"};
+  std::vector<bool> to_the_right = {true, false, true, true, true, true, false};
+  const bool of_solved = series.front().plannings > 0;
+  if (of_solved) {
+    heading.insert(heading.begin() + 3, "solved by all");
+    to_the_right.insert(to_the_right.begin() + 3, true);
+  }
   std::vector<std::vector<std::string>> table;
+  bool comparable = true;
   for (const db::TrendSeries& one : series) {
     table.push_back({one.case_id > 0 ? std::to_string(one.case_id) : "-",
                      contexts ? series_name(one) : label_of(one), std::to_string(one.points.size()),
                      with_unit(one.points.front().value, metric.unit),
                      with_unit(one.points.back().value, metric.unit), std::to_string(one.changes.size()),
                      sparkline(values_of(one), kNarrowSparkline)});
+    if (of_solved) table.back().insert(table.back().begin() + 3, solved_by_all(one));
+    comparable = comparable && one.is_comparable();
   }
-  return db::align({"case", "parameters", "versions", "first", "last", "changes", "history"}, table,
-                   {true, false, true, true, true, true, false});
+  const std::string note =
+      comparable ? ""
+                 : "0 of them solved by all: each value is of other plannings, and no change is marked\n";
+  return db::align(heading, table, to_the_right) + note;
 }
 
 Json json_number(double value) {
@@ -217,6 +250,10 @@ Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries
     entry["label"] = one.label;
     entry["instances"] = one.instances;
     entry["context"] = one.context;
+    if (one.plannings > 0) {
+      entry["plannings"] = one.plannings;
+      entry["solved_by_all"] = one.solved_by_all;
+    }
     entry["points"] = Json::array();
     for (const db::TrendPoint& point : one.points) {
       entry["points"].push_back({{"commit", point.commit.empty() ? Json(nullptr) : Json(point.commit)},
@@ -226,6 +263,7 @@ Json trend_json(const db::TrendMetric& metric, const std::vector<db::TrendSeries
                                  {"started_utc", point.started_utc},
                                  {"runs", point.runs},
                                  {"value", json_number(point.value)}});
+      if (point.solved_share) entry["points"].back()["solved_share"] = *point.solved_share;
     }
     entry["changes"] = Json::array();
     for (const db::TrendChange& change : one.changes) {
@@ -250,6 +288,10 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
   chart.y_label =
       metric.unit.empty() ? std::string(metric.name) : fmt::format("{} [{}]", metric.name, metric.unit);
   if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, label_of(series.front()));
+  if (std::any_of(series.begin(), series.end(),
+                  [](const db::TrendSeries& one) { return !one.is_comparable(); })) {
+    chart.title += " (not comparable: no planning is solved by all)";
+  }
   chart.title += omission_note(series.size());
   const std::vector<db::TrendSeries> drawn(
       series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostChartLines)));

@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -24,6 +25,7 @@ namespace sipplab::bench {
 namespace {
 
 constexpr const char* kThisProgram = "/proc/self/exe";
+constexpr std::int64_t kGibibyte = std::int64_t{1} << 30;
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -99,6 +101,11 @@ db::MachineInfo machine_info() {
   machine.cores = std::max<std::int64_t>(0, sysconf(_SC_NPROCESSORS_ONLN));
   machine.memory_bytes =
       std::max<std::int64_t>(0, sysconf(_SC_PHYS_PAGES)) * std::max<std::int64_t>(0, sysconf(_SC_PAGESIZE));
+  // Each container has a host name of its own, and machines of one class differ by some pages.
+  if (const char* name = std::getenv(kMachineVariable); name != nullptr && *name != '\0') {
+    machine.host = name;
+    machine.memory_bytes = (machine.memory_bytes + kGibibyte / 2) / kGibibyte * kGibibyte;
+  }
   return machine;
 }
 

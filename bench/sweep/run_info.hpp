@@ -24,6 +24,8 @@ SourceInfo source_info();
 /// The same of another program.
 SourceInfo source_info(const std::filesystem::path& program);
 
+/// Names this machine where a host name does not: for containers, which have one each.
+inline constexpr const char* kMachineVariable = "SIPPLAB_MACHINE";
 db::MachineInfo machine_info();
 
 /// Compiler, flags and the hash of the program that runs.

@@ -170,7 +170,7 @@ cat >asked <<'TEXT'
 #!/bin/sh
 case "$1" in
   gate) echo "$*" >>gates ;;
-  bench) exec ./sipplab "$@" --robots 2 --map empty:8x8 --ssi 0 --reschedule none --order shortest --count 1 ;;
+  bench) exec ./sipplab "$@" --robots 2 --map empty:8x8 --ssi 0 --reschedule none --order shortest ;;
   report) ;;
   *) exec ./sipplab "$@" ;;
 esac
@@ -178,7 +178,7 @@ TEXT
 sed -i "s|gates|$work/gates|; s|\./sipplab|$sipplab|" asked && chmod +x asked
 pull_request() { # HISTORY: how many calibrations it asks for
   : >gates
-  runs 0 "$scripts/pull-request" --programs ./asked ./asked --history "$1" --calibrate 1 -o requested
+  runs 0 "$scripts/pull-request" --programs ./asked ./asked --history "$1" --calibrate 1 --count 1 -o requested
   equal "$(grep -c -- --calibrate gates)" "$2" "calibrations asked for, where $3"
 }
 pull_request none.db 1 'there is no history'

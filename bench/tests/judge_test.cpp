@@ -212,6 +212,17 @@ TEST(Judgement, ALossThatIsSmallerThanWhatMattersIsNoAlarm) {
   EXPECT_EQ(row(few, kSuccess, std::nullopt).verdict, Verdict::kChanged);
   EXPECT_NE(few.all.reason.find(", within chance (sees from 34.2 points on)"), std::string::npos)
       << few.all.reason;
+  // Who expects other plans has not said that fewer are found.
+  JudgeOptions expected;
+  expected.expects_changes = true;
+  const Judgement doubted = judgement_of(with_lost(144, 15, 1), expected);
+  EXPECT_EQ(doubted.all.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(
+      doubted.all.reason.find("success -0.7 points (95 %: -2.2 to +0.8): 1 of 144 plannings lost, 0 gained, "
+                              "p = 1, which may be chance (sees from 34.2 points on)"),
+      0U)
+      << doubted.all.reason;
+  EXPECT_EQ(judgement_of(with_lost(900, 100, 3), expected).all.verdict, Verdict::kChanged);
   JudgeOptions strict;
   strict.floors[db::MetricKind::kSuccess] = 0;
   EXPECT_EQ(judgement_of(with_lost(900, 100, 3), strict).all.verdict, Verdict::kInconclusive);
@@ -529,6 +540,38 @@ TEST(Judgement, ASlowCellIsNotCalledNoSlowdownOfAll) {
     EXPECT_EQ(judgement.all.reason.find("no slowdown") == std::string::npos, slower) << judgement.all.reason;
     EXPECT_EQ(judgement.all.reason.find("over all cells time +0.2 %") != std::string::npos, slower);
   }
+}
+
+TEST(Judgement, TasksBesidePlanningAreNoPlannings) {
+  db::PairedCell task = equal_cell(20);
+  task.is_planning = false;
+  std::vector<db::PairedCell> cells = {equal_cell(8), task};
+  cells[0].results[3].head = failed();
+  const Judgement result = judgement_of(cells);
+  const Difference& success = row(result, kSuccess, std::nullopt);
+  EXPECT_EQ(success.plannings, 8U);
+  EXPECT_EQ(success.pairs.size(), 8U);
+  EXPECT_DOUBLE_EQ(success.effect, 0.125) << "one of eight";
+  EXPECT_EQ(result.all.compared, 8U);
+  EXPECT_EQ(result.all.instances, 8U);
+  EXPECT_EQ(result.all.base_solved, 8U);
+  EXPECT_EQ(result.find(kSuccess, 1), nullptr);
+  EXPECT_NE(result.all.reason.find("1 of 8 plannings lost"), std::string::npos) << result.all.reason;
+  // Its outcomes are compared all the same.
+  cells[0].results[3].head = cells[0].results[3].base;
+  EXPECT_EQ(judgement_of(cells).all.verdict, Verdict::kSame);
+  cells[1].results[3].head.plan_hash = 99;
+  const Judgement other = judgement_of(cells);
+  EXPECT_EQ(other.all.verdict, Verdict::kChanged);
+  EXPECT_EQ(other.all.other_plans, 0U);
+  EXPECT_EQ(other.all.reason.find(
+                "all 8 plannings gave the same status, plan and work; 1 of 20 tasks beside planning "
+                "gave another outcome"),
+            0U)
+      << other.all.reason;
+  EXPECT_EQ(other.findings.size(), 1U);
+  EXPECT_NE(report_text({other, "sipplab gate", "base", "head", {}, "", ""}).find("1 of 20 tasks"),
+            std::string::npos);
 }
 
 TEST(Judgement, PlansThatDifferWhenPlannedAgainAreARegression) {

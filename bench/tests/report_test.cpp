@@ -231,6 +231,34 @@ TEST(TrendText, tells_versions_changes_and_sizes) {
   EXPECT_EQ(json["series"][0]["points"].size(), 4U);
 }
 
+TEST(TrendText, says_over_which_plannings_a_mean_of_solved_ones_is) {
+  db::TrendSeries series;
+  series.label = "warehouse";
+  series.plannings = 10;
+  series.solved_by_all = 7;
+  for (const double share : {1.0, 0.7}) {
+    db::TrendPoint point;
+    point.value = 3;
+    point.solved_share = share;
+    series.points.push_back(point);
+  }
+  const db::TrendMetric& metric = *db::find_trend_metric("flowtime");
+  std::string text = trend_text(metric, {series}, 2);
+  EXPECT_NE(text.find("2 versions; over the 7 of 10 plannings that all solved\n\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("flowtime  solved  runs"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.7"), std::string::npos) << text;
+  EXPECT_EQ(trend_json(metric, {series})["series"][0]["solved_by_all"], 7);
+  EXPECT_EQ(trend_json(metric, {series})["series"][0]["points"][1]["solved_share"], 0.7);
+  text = trend_text(metric, {series, series}, 2);
+  EXPECT_NE(text.find("7 of 10"), std::string::npos) << text;
+  series.solved_by_all = 0;
+  for (const auto& shown : {std::vector{series}, {series, series}}) {
+    text = trend_text(metric, shown, 2);
+    EXPECT_NE(text.find("each value is of other plannings"), std::string::npos) << text;
+  }
+}
+
 TEST(TrendChart, puts_each_series_where_its_versions_are) {
   const auto series_of = [](int first, int last) {
     db::TrendSeries series;

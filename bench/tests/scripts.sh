@@ -48,6 +48,9 @@ refused "--worse 'makespan', expected" trials compare --worse makespan 0.1 3
 refused 'usage' bisect HEAD
 refused 'expected a commit' bisect HEAD no/such/commit
 refused "--calibrate 'x', expected" pull-request HEAD --calibrate x
+refused "--count '0', expected a number" pull-request HEAD --count 0
+refused "--inconclusive 'x', expected pass or fail" pull-request HEAD --inconclusive x
+refused "--count 'x', expected a number" bisect HEAD~1 HEAD --count x
 refused 'usage' slurm
 refused '--dir, expected a value' slurm --dir
 refused "--tasks 'x', expected a number" slurm --tasks x --suite smoke
@@ -68,7 +71,7 @@ printf '#!/bin/sh\n' >scripts/setup && chmod +x scripts/setup
 cat >sipplab.sh <<'TEXT'
 #!/bin/sh
 case "$1" in
-  bench) printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
+  bench) echo "$@" >>"$LOG" && printf '{\n  "run": "of %s"\n}\n' "$(cat "$(dirname "$0")/code")" ;;
   sql) printf 'count(*)\r\n0\r\n' ;;
   gate)
     echo "$@" >>"$LOG"
@@ -126,6 +129,39 @@ grep -q -- --expect-changes "$LOG" || complain 'pull-request did not pass on wha
 : >"$LOG" && judge scripts/pull-request HEAD~3 --calibrate 2
 grep -q -- '--calibrate --comparisons 2' "$LOG" || complain 'pull-request did not measure the noise'
 ! grep ': line [0-9]*: \[' "$work.err" || complain 'pull-request compares what is no number'
+
+# Enough instances to see a loss, unless another suite is asked for.
+grep -q -- 'bench --suite smoke --count 20 ' "$LOG" || complain "pull-request plans too few instances: $(cat "$LOG")"
+: >"$LOG" && judge scripts/pull-request HEAD~3 --suite density
+! grep -q -- --count "$LOG" || complain "pull-request does not plan the suite as it is: $(cat "$LOG")"
+: >"$LOG" && judge scripts/pull-request HEAD~3 --suite density --count 7
+grep -q -- 'bench --suite density --count 7 ' "$LOG" || complain "pull-request does not plan as many: $(cat "$LOG")"
+
+# What is inconclusive is what the caller makes of it.
+git checkout -q -b unclear && echo 3 >code && save 'unclear'
+for said in '3' '0 --inconclusive pass' '1 --inconclusive fail'; do
+  code=${said%% *}
+  # shellcheck disable=SC2086
+  judge scripts/pull-request HEAD~3 ${said#"$code"}
+  [ $? -eq "$code" ] || complain "pull-request, inconclusive, not $said: $(cat "$work.err")"
+done
+[ "$(head -n 1 build/pull-request/summary.md)" = '**VERDICT 3**' ] || complain 'what is inconclusive is not called so'
+git checkout -q - 
+
+# What landed on the base branch since is not the change's: the base is where the branch left it.
+left=$(git rev-parse HEAD~3)
+git branch change && git checkout -q "$left"
+echo 1 >code && echo landed >number && save 'landed on the base branch, and said: Plans: changed'
+git branch landed && git checkout -q change
+: >"$LOG" && judge scripts/pull-request landed
+grep -q -- "--base $PWD/build/base/$left/build/release/sipplab" "$LOG" ||
+  complain "pull-request did not compare with where the branch left: $(cat "$LOG" "$work.err")"
+[ ! -e "build/base/$(git rev-parse landed)" ] || complain 'pull-request built what it does not compare with'
+grep -q "^scripts/pull-request: .* $left" "$work.err" || complain 'pull-request does not say with which commit it compares'
+git checkout -q --orphan stranger && git rm -rq --cached . && git add -f number && save 'no common commit'
+git checkout -qf change
+judge scripts/pull-request stranger
+[ $? -eq 2 ] && grep -q 'stranger and the checkout, expected' "$work.err" || complain "pull-request with a stranger: $(cat "$work.err")"
 
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +20,7 @@
 #include "bench/sweep/instance_set.hpp"
 #include "bench/sweep/instruction_count.hpp"
 #include "bench/sweep/peak_memory.hpp"
+#include "bench/sweep/run_info.hpp"
 #include "bench/sweep/run_instance.hpp"
 #include "bench/sweep/shard.hpp"
 #include "bench/sweep/suites.hpp"
@@ -168,6 +170,23 @@ TEST(PerfCounter, CountsWhatIsDoneAfterItBegan) {
 TEST(PerfCounter, NothingIsCountedWhereThereIsNoSuchCounter) {
   constexpr std::uint64_t kNoEvent = 0xffff;
   EXPECT_FALSE(PerfCounter(PERF_TYPE_SOFTWARE, kNoEvent).count());
+}
+
+TEST(MachineInfo, IsOfTheNameThatIsGiven) {
+  constexpr const char* kVariable = "SIPPLAB_MACHINE";
+  unsetenv(kVariable);
+  const db::MachineInfo itself = machine_info();
+  EXPECT_FALSE(itself.host.empty());
+  setenv(kVariable, "", 1);
+  EXPECT_EQ(db::fingerprint(machine_info()), db::fingerprint(itself)) << "no name";
+  setenv(kVariable, "runner-large", 1);
+  const db::MachineInfo named = machine_info();
+  EXPECT_EQ(named.host, "runner-large");
+  EXPECT_EQ(named.cpu_model, itself.cpu_model);
+  EXPECT_EQ(named.kernel, itself.kernel);
+  EXPECT_EQ(named.memory_bytes % (std::int64_t{1} << 30), 0) << "machines of a class differ by some pages";
+  EXPECT_NEAR(static_cast<double>(named.memory_bytes), static_cast<double>(itself.memory_bytes), 1 << 29);
+  unsetenv(kVariable);
 }
 
 TEST(PlannerLabel, SaysWhatDiffersFromTheDefaults) {

@@ -181,6 +181,7 @@ TEST_F(Queries, reports_as_text) {
             std::string::npos)
       << text;
 
+  EXPECT_NE(text.find("makespan, flowtime: means over what this run solved"), std::string::npos) << text;
   const auto json = nlohmann::json::parse(format_run_report(report, OutputFormat::kJson));
   EXPECT_EQ(json["run"]["run"], uuid);
   EXPECT_EQ(json["cells"][0]["median_makespan_s"], 3.0);

@@ -132,6 +132,48 @@ TEST_F(Trends, sets_of_instances_are_not_compared_with_each_other) {
   EXPECT_EQ(series[0].case_id, series[1].case_id);
 }
 
+TEST_F(Trends, plans_are_compared_where_all_versions_solve) {
+  // Flowtimes rise from instance to instance, and the second half of the versions fails on the last two.
+  for (int number = 1; number <= 12; ++number) {
+    const std::string uuid = record_version(file, {number, 1, number <= 6 ? 8 : 6});
+    test::ask(
+        file,
+        "UPDATE result SET flowtime_s = 100 * instance_id WHERE status = 0 AND cell_id = (SELECT cell.id "
+        "FROM cell JOIN run ON run.id = run_id WHERE uuid = '" +
+            uuid + "') RETURNING 1");
+  }
+  auto series = trend("flowtime");
+  ASSERT_EQ(series.size(), 1U);
+  ASSERT_EQ(series[0].points.size(), 12U);
+  for (const TrendPoint& point : series[0].points) EXPECT_DOUBLE_EQ(point.value, 350) << point.subject;
+  EXPECT_TRUE(series[0].changes.empty()) << "to fail on what is hard is no shorter plan";
+  EXPECT_EQ(series[0].plannings, 10);
+  EXPECT_EQ(series[0].solved_by_all, 6);
+  EXPECT_DOUBLE_EQ(series[0].points.front().solved_share.value_or(0), 0.8);
+  EXPECT_DOUBLE_EQ(series[0].points.back().solved_share.value_or(0), 0.6);
+  EXPECT_FALSE(trend("success")[0].points[0].solved_share);
+  EXPECT_EQ(trend("success")[0].changes.size(), 1U);
+}
+
+TEST_F(Trends, versions_that_solved_other_plannings_are_not_compared) {
+  for (int number = 1; number <= 12; ++number) {
+    const std::string uuid = record_version(file, {number, number <= 6 ? 1.0 : 0.5, 4});
+    if (number <= 6) continue;
+    // The others of the same instances.
+    test::ask(
+        file,
+        "UPDATE result SET instance_id = 11 - instance_id, position = 100 + position WHERE cell_id = (SELECT "
+        "cell.id FROM cell JOIN run ON run.id = run_id WHERE uuid = '" +
+            uuid + "') RETURNING 1");
+  }
+  const auto series = trend("flowtime");
+  ASSERT_EQ(series.size(), 1U);
+  EXPECT_EQ(series[0].solved_by_all, 0);
+  EXPECT_FALSE(series[0].is_comparable());
+  EXPECT_DOUBLE_EQ(series[0].points.back().value, 500) << "of what it solved";
+  EXPECT_TRUE(series[0].changes.empty());
+}
+
 TEST_F(Trends, of_one_set_nothing_is_said) {
   record_version(file, {1, 1, 8});
   EXPECT_EQ(trend("success")[0].instances, "");

@@ -382,6 +382,69 @@ void metrics_are_what_they_are_called() {
   }
 }
 
+/// What is of solved plannings is, for every version, of those that all versions solved.
+void solved_plannings_are_paired() {
+  using Planning = std::pair<int, std::int64_t>;
+  const NewHistory history;
+  const auto instances = static_cast<int>(any_whole(1, 3));
+  std::map<std::string, std::map<Planning, double>> solved;  // flowtimes of each commit
+  for (auto number = static_cast<int>(any_whole(1, 4)); number > 0; --number) {
+    Sweep sweep = run_of(commit_number(number), 1);
+    const Planned planned = sweep.plannings.front();
+    sweep.plannings.clear();
+    std::map<Planning, double> flowtimes;
+    for (int instance = 0; instance < instances; ++instance) {
+      for (std::int64_t repetition = 0; repetition < 2; ++repetition) {
+        Planned one = planned;
+        one.instance = instance_number(instance);
+        if (any_whole(0, 4) == 0) {
+          one.row = ResultRow{};
+        } else {
+          one.row.flowtime_s = static_cast<double>(any_whole(1, 8));
+          flowtimes[{instance, repetition}] = *one.row.flowtime_s;
+        }
+        one.row.position = instance;
+        one.row.repetition = repetition;
+        sweep.plannings.push_back(one);
+      }
+    }
+    record(history.path(), sweep);
+    if (!flowtimes.empty()) solved[sweep.info.commit->hash] = flowtimes;
+  }
+  std::set<Planning> common;
+  for (int instance = 0; instance < instances; ++instance) {
+    for (std::int64_t repetition = 0; repetition < 2; ++repetition) {
+      const Planning planning(instance, repetition);
+      const bool by_all = std::all_of(solved.begin(), solved.end(), [&planning](const auto& version) {
+        return version.second.count(planning) > 0;
+      });
+      if (by_all) common.insert(planning);
+    }
+  }
+  Database database = history.open();
+  const auto series = trend(database, "flowtime");
+  RC_ASSERT(series.size() == (solved.empty() ? 0U : 1U));
+  if (solved.empty()) return;
+  RC_ASSERT(series[0].plannings == 2 * instances);
+  RC_ASSERT(series[0].solved_by_all == static_cast<std::int64_t>(common.size()));
+  RC_ASSERT(series[0].is_comparable() == !common.empty());
+  RC_ASSERT(series[0].points.size() == solved.size());
+  for (const TrendPoint& point : series[0].points) {
+    const std::map<Planning, double>& flowtimes = solved.at(point.commit);
+    double sum = 0;
+    double count = 0;
+    for (const auto& [planning, flowtime] : flowtimes) {
+      if (!common.empty() && common.count(planning) == 0) continue;
+      sum += flowtime;
+      ++count;
+    }
+    RC_ASSERT(std::abs(point.value - sum / count) < 1e-9);
+    const double share = static_cast<double>(flowtimes.size()) / (2.0 * instances);
+    RC_ASSERT(std::abs(point.solved_share.value_or(-1) - share) < 1e-9);
+  }
+  RC_CLASSIFY(common.empty(), "nothing in common");
+}
+
 /// Of campaigns, properties and imported reports: each number from its own runs, in its unit.
 void other_metrics_are_what_they_are_called() {
   const NewHistory history;
@@ -451,6 +514,8 @@ const PropertyRoom room("history_trends", kCasesOfHistories, [] {
                      kManyRuns);
   passed &= property("sets of instances have series of their own", sets_of_instances_stay_apart, kManyRuns);
   passed &= property("a metric of a case is what it is called", metrics_are_what_they_are_called, kManyRuns);
+  passed &= property("what is of solved plannings is of those that all versions solved",
+                     solved_plannings_are_paired, kManyRuns);
   passed &= property("metrics of properties, fuzzing and reports are what they are called",
                      other_metrics_are_what_they_are_called, kManyRuns);
 
