@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "bench/present/numbers.hpp"
+#include "bench/present/plots.hpp"
 #include "db/aligned.hpp"
 
 namespace sipplab::bench {
@@ -251,6 +252,7 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
       metric.unit.empty() ? std::string(metric.name) : fmt::format("{} [{}]", metric.name, metric.unit);
   if (series.size() == 1) chart.title = fmt::format("{}, {}", metric.name, label_of(series.front()));
   chart.title += omission_note(series.size());
+  chart.caption = "a point: median of the runs of one commit; dotted: the level changed";
   const std::vector<db::TrendSeries> drawn(
       series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostChartLines)));
   const Places places = places_of(drawn);
@@ -260,7 +262,8 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
   for (const db::TrendSeries& one : drawn) {
     ChartLine line;
     line.colour = static_cast<int>(chart.lines.size());
-    if (drawn.size() > 1) line.label = short_label(one);
+    if (drawn.size() > 1)
+      line.label = one.case_id == 0 ? one.label : fmt::format("case {}: {}", one.case_id, label_of(one));
     for (const db::TrendPoint& point : one.points)
       line.points.push_back({x_of(point), point.value, false, std::nullopt});
     for (const db::TrendChange& change : one.changes) {
@@ -272,6 +275,7 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
     }
     chart.lines.push_back(std::move(line));
   }
+  if (metric.unit == "s") chart.y_label = fmt::format("{} [{}]", metric.name, in_one_unit(chart));
   std::vector<std::string> names(places.size());
   for (const db::TrendSeries& one : drawn) {
     for (const db::TrendPoint& point : one.points) names[places.at(version_key(point))] = version_name(point);
