@@ -15,6 +15,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
+#include "bench/present/picture_format.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "bench/temporary_folder.hpp"
 #include "db/findings.hpp"
@@ -116,6 +117,9 @@ std::optional<std::string> write_files(const FindingsArguments& arguments, const
 }
 
 int run_show(const FindingsArguments& arguments) {
+  if (arguments.svg) {
+    if (const auto error = bench::find_plan_picture_error(*arguments.svg)) return bad_usage(*error);
+  }
   auto database = SIPPLAB_TRY_OR(fail, read_history(arguments.history.database));
   const auto stored = SIPPLAB_TRY_OR(fail, db::find_finding(database, *arguments.id));
   const auto events = SIPPLAB_TRY_OR(fail, db::finding_events(database, *arguments.id));
@@ -211,7 +215,8 @@ Command add_findings_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* show = arguments->history.add_command(*findings, "show", "one finding, with its smallest input");
   show->add_option("id", arguments->id, "as `sipplab findings list` shows it")->required();
   show->add_option("-o,--output", arguments->output, "write the smallest input there")->type_name("FILE");
-  show->add_option("--svg", arguments->svg, "draw the planning case and its plan there")->type_name("FILE");
+  show->add_option("--svg", arguments->svg, "draw the planning case and its plan there, as .svg")
+      ->type_name("FILE");
   CLI::App* replay =
       arguments->history.add_command(*findings, "replay",
                                      "run the smallest inputs again; exit code 1 if one still breaks, 0 if "

@@ -211,6 +211,7 @@ int report_invalid(const PlanArguments& arguments, const Instance& instance, con
 }
 
 int run_plan(const PlanArguments& arguments) {
+  if (const auto error = arguments.picture.find_error()) return bad_usage(*error);
   const auto loaded = SIPPLAB_TRY_OR(fail, arguments.instance.load());
   const Instance& instance = loaded.instance;
   PlannerOptions options;
@@ -272,7 +273,7 @@ Command add_plan_command(CLI::App& program) {
       ->needs(solution);
   command->option_defaults()->group("Output");
   arguments->output.add_to(*command);
-  arguments->picture.add_to(*command, "draw the solution there");
+  arguments->picture.add_to(*command, "draw the solution there, as .svg");
   command->add_flag("--json", arguments->json, "print one JSON document");
   return {command, [arguments] { return run_plan(*arguments); }};
 }

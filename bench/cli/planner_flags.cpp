@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/cli/console.hpp"
+#include "bench/present/picture_format.hpp"
 #include "planner/io/text.hpp"
 #include "planner/io/text_file.hpp"
 
@@ -133,6 +134,10 @@ void PictureFlags::add_to(CLI::App& command, const std::string& words) {
       ->check(check_positive_real)
       ->type_name("SPEED")
       ->group("Output");
+}
+
+std::optional<std::string> PictureFlags::find_error() const {
+  return file ? bench::find_plan_picture_error(*file) : std::nullopt;
 }
 
 double PictureFlags::animation_speed() const { return animate_ ? parse_real(*animate_).value_or(1) : 0; }

@@ -84,6 +84,8 @@ struct PictureFlags {
   void add_to(CLI::App& command, const std::string& words);
   /// As SvgOptions::animation_speed.
   double animation_speed() const;
+  /// One line if the file is called otherwise than a picture of a plan.
+  std::optional<std::string> find_error() const;
 
  private:
   std::optional<std::string> animate_;

@@ -92,9 +92,12 @@ int plot_paper(const PlotArguments& arguments, bench::PictureFormat format) {
   auto database = SIPPLAB_TRY_OR(fail, db::Database::open_read_only(path));
   const auto uuid = SIPPLAB_TRY_OR(fail, db::resolve_run(database, arguments.runs.front()));
   const auto cells = SIPPLAB_TRY_OR(fail, bench::measured_cells(path, uuid));
-  return save(arguments, format,
-              arguments.kind == kFigure ? bench::figure_chart(cells) : bench::table_chart(cells),
-              "a run with cells of the paper: `sipplab reproduce`");
+  const auto report = SIPPLAB_TRY_OR(fail, db::show_run(database, uuid));
+  const std::string words = bench::run_words(report.run);
+  return save(
+      arguments, format,
+      arguments.kind == kFigure ? bench::figure_chart(cells, words) : bench::table_chart(cells, words),
+      "a run with cells of the paper: `sipplab reproduce`");
 }
 
 int run_plot(const PlotArguments& arguments) {

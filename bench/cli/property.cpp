@@ -15,6 +15,7 @@
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
 #include "bench/cli/planner_flags.hpp"
+#include "bench/present/picture_format.hpp"
 #include "bench/sweep/run_info.hpp"
 #include "db/json_text.hpp"
 #include "db/property_runs.hpp"
@@ -150,6 +151,9 @@ const char* text_of(bench::ProgramVerdict verdict) {
 }
 
 int run_replay(const PropertyArguments& arguments) {
+  if (arguments.svg) {
+    if (const auto error = bench::find_plan_picture_error(*arguments.svg)) return bad_usage(*error);
+  }
   const auto report = SIPPLAB_TRY_OR(fail, find_report(arguments));
   const db::PropertyRun& run = report.run;
   if (run.status != "failed") {
@@ -229,7 +233,7 @@ Command add_property_command(CLI::App& program, const Invocation& invocation) {
   add_run_argument(*replay, *arguments);
   replay->add_option("-o,--output", arguments->instance_file, "write the planned instance there, as XML")
       ->type_name("FILE");
-  replay->add_option("--svg", arguments->svg, "draw the case and its plan there")->type_name("FILE");
+  replay->add_option("--svg", arguments->svg, "draw the case and its plan there, as .svg")->type_name("FILE");
 
   return {property, [=] {
             if (record->parsed()) return run_record(*arguments);

@@ -14,6 +14,7 @@
 #include "bench/cli/planner_flags.hpp"
 #include "bench/cli/reproduce_solvers.hpp"
 #include "bench/present/paper_report.hpp"
+#include "bench/present/plots.hpp"
 #include "db/database.hpp"
 #include "db/json_text.hpp"
 #include "db/queries.hpp"
@@ -40,13 +41,13 @@ std::string source_of(const db::RunSummary& run) {
 }
 
 int write_page(const std::string& folder, const std::vector<bench::MeasuredCell>& cells,
-               const std::string& source) {
+               const db::RunSummary& run) {
   std::error_code error;
   fs::create_directories(folder, error);
-  const auto pictures =
-      SIPPLAB_TRY_OR(fail, bench::pictures_of({bench::figure_chart(cells), bench::table_chart(cells)},
-                                              bench::PictureFormat::kSvg));
-  const std::string page = SIPPLAB_TRY_OR(fail, bench::reproduction_page(cells, source));
+  const std::string words = bench::run_words(run);
+  const std::vector<bench::Chart> charts{bench::figure_chart(cells, words), bench::table_chart(cells, words)};
+  const auto pictures = SIPPLAB_TRY_OR(fail, bench::pictures_of(charts, bench::PictureFormat::kSvg));
+  const std::string page = SIPPLAB_TRY_OR(fail, bench::reproduction_page(cells, source_of(run), charts));
   const std::pair<const char*, const std::string&> files[] = {
       {"index.html", page}, {"figure1.svg", pictures[0]}, {"table1.svg", pictures[1]}};
   for (const auto& [name, text] : files) {
@@ -79,7 +80,7 @@ int judge(const ReproduceArguments& arguments, const fs::path& database, const s
   print(arguments.json ? db::json_text(bench::reproduction_json(cells, uuid))
                        : source + "\n\n" + bench::reproduction_text(cells));
   if (arguments.folder) {
-    if (const int code = write_page(*arguments.folder, cells, source); code != kSuccess) return code;
+    if (const int code = write_page(*arguments.folder, cells, report.run); code != kSuccess) return code;
     diagnose("written: " + (fs::path(*arguments.folder) / "index.html").string());
   }
   return bench::is_reproduced(cells) ? kSuccess : kNegativeVerdict;

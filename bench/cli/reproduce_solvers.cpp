@@ -11,6 +11,7 @@
 
 #include "bench/cli/console.hpp"
 #include "bench/cli/history.hpp"
+#include "bench/present/plots.hpp"
 #include "bench/present/solvers_report.hpp"
 #include "bench/sweep/known_planners.hpp"
 #include "db/database.hpp"
@@ -47,12 +48,12 @@ int present(const SolversArguments& arguments, const fs::path& database,
   fs::create_directories(*arguments.folder, ignored);
   const fs::path folder = *arguments.folder;
   std::string source = "runs";
-  for (const std::string& run : runs) source += " " + run;
+  for (const std::string& run : runs) source += " " + run.substr(0, bench::kRunDigits);
   const std::string page = SIPPLAB_TRY_OR(fail, bench::solvers_page(rows, source));
   if (const auto error = write_file((folder / "index.html").string(), page)) return fail(error->message());
   std::vector<std::string> names;
   std::vector<bench::Chart> charts;
-  for (auto& [name, chart] : bench::solver_charts(rows)) {
+  for (auto& [name, chart] : bench::solver_charts(rows, source)) {
     names.push_back(name);
     charts.push_back(std::move(chart));
   }

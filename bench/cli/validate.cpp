@@ -103,6 +103,7 @@ int exit_code(const Verdict& verdict) {
 }
 
 int run_validate(const ValidateArguments& arguments) {
+  if (const auto error = arguments.picture.find_error()) return bad_usage(*error);
   const auto loaded = SIPPLAB_TRY_OR(fail, arguments.instance.load());
   const auto solution =
       SIPPLAB_TRY_OR(fail, load_solution(arguments.solution, loaded.instance, arguments.format.value_or("")));
@@ -161,7 +162,7 @@ Command add_validate_command(CLI::App& program) {
       ->check(check_ssi)
       ->type_name("K");
   arguments->motion.add_to(*command, {OptionGroup::kMotion});
-  arguments->picture.add_to(*command, "draw the solution and its violations there");
+  arguments->picture.add_to(*command, "draw the solution and its violations there, as .svg");
   command->add_flag("--certify", arguments->certify,
                     "prove for each pair that it is safe or collides; exit code 3 if neither is proven");
   command->add_flag("--json", arguments->json, "print one JSON document");

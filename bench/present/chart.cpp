@@ -21,16 +21,27 @@ constexpr std::array<const char*, kMostChartLines> kPalette{"#0072b2", "#d55e00"
 constexpr std::array<int, kMostChartLines> kPoints{7, 5, 9, 13, 11, 15, 7};
 /// More points than this are a line without dots.
 constexpr std::size_t kMostDots = 60;
-/// Pixels: a letter of ticks and labels, what stands left and right of the plot, a line of the legend.
+/// Gnuplot makes no box of fewer values: they are points.
+constexpr std::size_t kFewestInBox = 5;
+/// Pixels: a letter of ticks and labels, what stands left and right of the plot, a line of the legend; what
+/// stands below the plot beside the legend: the labels of ticks and axis.
 constexpr double kCharWidth = 6.4;
 constexpr double kMargins = 90;
+constexpr double kLeftMargin = 65;
 constexpr double kLegendLine = 17;
+constexpr double kBelowPlot = 58;
+/// Gnuplot's own idea of a letter, by which it sets columns of the legend apart, and what else is in one, in
+/// letters.
+constexpr double kColumnLetter = 7.7;
+constexpr double kBesideLabel = 6;
+constexpr double kSample = 40;
 constexpr double kTitleSize = 13;
 /// Width of a letter of the title, as a share of its size; pixels left free beside it.
 constexpr double kTitleLetter = 0.6;
 constexpr double kTitleMargin = 20;
 constexpr double kCaptionLetter = 4.8;
 constexpr double kPixelsPerInch = 100;
+constexpr double kMarkHeight = 14;
 
 /// As gnuplot reads it, where nothing in it is a command: between single quotes it expands nothing.
 std::string quoted(std::string text) {
@@ -76,14 +87,44 @@ bool coincide(const Chart& chart) {
   return false;
 }
 
+/// In lines of at most so many letters, broken at spaces.
+std::vector<std::string> wrapped(std::string_view text, std::size_t most) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    std::size_t end = text.size() > most ? text.rfind(' ', most) : text.size();
+    if (end == std::string_view::npos || end == 0)
+      end = std::min(text.size(), std::max<std::size_t>(most, 1));
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+    if (text.starts_with(' ')) text.remove_prefix(1);
+  }
+  return lines;
+}
+
 class Script {
  public:
-  Script(const Chart& chart, PictureFormat format) : chart_(chart), format_(format) {}
+  Script(const Chart& chart, PictureFormat format) : chart_(chart), format_(format) {
+    std::size_t longest = 0;
+    for (const ChartLine& one : chart_.lines) {
+      const auto most = static_cast<std::size_t>((chart_.width - kTitleMargin - kSample) / kCharWidth);
+      for (const std::string& words : labels_.emplace_back(wrapped(one.label, most))) {
+        longest = std::max(longest, words.size());
+        ++label_lines_;
+      }
+    }
+    const double width = kColumnLetter * (static_cast<double>(longest) + kBesideLabel);
+    const bool broken =
+        std::any_of(labels_.begin(), labels_.end(), [](const auto& one) { return one.size() > 1; });
+    const double columns = broken ? 1 : std::max(1.0, std::floor((chart_.width - kTitleMargin) / width));
+    legend_rows_ = std::ceil(static_cast<double>(label_lines_) / columns);
+    height_ = chart_.height + kLegendLine * legend_rows_;
+    place_marks();
+  }
 
   std::string write(const std::string& file) {
     line("reset");
     line("set encoding utf8");
-    const int height = chart_.height + static_cast<int>(kLegendLine * legend_lines());
+    const int height = static_cast<int>(height_);
     if (format_ == PictureFormat::kPdf) {
       line(fmt::format("set terminal pdfcairo noenhanced font 'sans,9' size {:.2f}in,{:.2f}in",
                        chart_.width / kPixelsPerInch, height / kPixelsPerInch));
@@ -108,49 +149,61 @@ class Script {
  private:
   void line(const std::string& words) { text_ += words + '\n'; }
 
-  double legend_lines() const {
-    std::size_t longest = 0;
-    std::size_t labels = 0;
+  /// Labels of marks stand in rows, so that none covers another: row and horizontal justification of each.
+  struct MarkPlace {
+    std::size_t row = 0;
+    const char* justified = "center";
+  };
+  void place_marks() {
+    constexpr double kMarkLetter = 5.6;
+    ChartRange x;
     for (const ChartLine& one : chart_.lines) {
-      longest = std::max(longest, one.label.size());
-      labels += one.label.empty() ? 0U : 1U;
+      for (const ChartPoint& point : one.points) x.add(point.x);
     }
-    constexpr double kSample = 40;
-    const double width = kCharWidth * static_cast<double>(longest) + kSample;
-    const auto columns = std::max(1.0, std::floor(chart_.width / width));
-    return std::ceil(static_cast<double>(labels) / columns);
+    std::vector<double> row_ends;
+    for (const ChartLine& one : chart_.lines) {
+      for (const ChartMark& mark : one.marks) {
+        MarkPlace& place = mark_places_.emplace_back();
+        if (mark.label.empty()) continue;
+        const double width = kMarkLetter * static_cast<double>(mark.label.size() + 1);
+        const double middle =
+            kLeftMargin + (mark.x - x.low) * (chart_.width - kMargins) / std::max(x.high - x.low, 1e-9);
+        double begin = middle - width / 2;
+        if (begin < 0) {
+          place.justified = "left";
+          begin = middle;
+        } else if (begin + width > chart_.width) {
+          place.justified = "right";
+          begin = middle - width;
+        }
+        while (place.row < row_ends.size() && begin < row_ends[place.row]) ++place.row;
+        if (place.row == row_ends.size()) row_ends.push_back(0);
+        row_ends[place.row] = begin + width;
+      }
+    }
+    mark_rows_ = row_ends.size();
   }
 
   void titles() {
     // A long title becomes smaller rather than cut off.
     const double letters = kTitleLetter * static_cast<double>(chart_.title.size() + 1);
     const double size = std::min(kTitleSize, (chart_.width - kTitleMargin) / letters);
-    std::string_view rest = chart_.caption;
     const auto most = static_cast<std::size_t>((chart_.width - kTitleMargin) / kCaptionLetter);
-    std::vector<std::string> lines;
-    while (!rest.empty()) {
-      std::size_t end = rest.size() > most ? rest.rfind(' ', most) : rest.size();
-      if (end == std::string_view::npos) end = rest.size();
-      lines.emplace_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(rest.size(), end + 1));
-    }
     constexpr double kCaptionHeight = 13;
     constexpr double kTitleHeight = 17;
     double y = kTitleHeight;
     label(1, chart_.title, y, fmt::format("font ',{:.1f}'", size));
     int number = 2;
-    for (const std::string& words : lines) {
+    for (const std::string& words : wrapped(chart_.caption, most)) {
       y += kCaptionHeight;
       label(number++, words, y, "font ',8.5' textcolor rgb '#777777'");
     }
     constexpr double kBelowTitles = 16;  // half a tick's label and some air
-    constexpr double kMarkHeight = 14;
-    bool marked = false;
-    for (const ChartLine& one : chart_.lines) marked = marked || !one.marks.empty();
-    line(
-        fmt::format("set tmargin at screen {:.4f}", from_top(y + kBelowTitles + (marked ? kMarkHeight : 0))));
+    y += kBelowTitles + kMarkHeight * static_cast<double>(mark_rows_);
+    line(fmt::format("set tmargin at screen {:.4f}", from_top(y)));
+    line(fmt::format("set bmargin at screen {:.4f}", (kBelowPlot + kLegendLine * legend_rows_) / height_));
   }
-  double from_top(double pixels) const { return 1 - pixels / (chart_.height + kLegendLine * legend_lines()); }
+  double from_top(double pixels) const { return 1 - pixels / height_; }
   void label(int number, const std::string& words, double y, const std::string& more) {
     line(fmt::format("set label {} {} at screen {:.4f}, screen {:.4f} left {}", number, quoted(words),
                      8.0 / chart_.width, from_top(y), more));
@@ -162,7 +215,12 @@ class Script {
     line("set grid y linecolor rgb '#cccccc' linetype 1 linewidth 0.5");
     line("set xlabel " + quoted(chart_.x_label) + " offset 0,0.3");
     line("set ylabel " + quoted(chart_.y_label));
-    line("set key below left Left reverse samplen 2 width 1");
+    // Where it is, not where gnuplot finds room: it would take less than there is, and write over the axis.
+    constexpr double kKeyLeft = 8;
+    constexpr double kKeyBottom = 4;
+    line(fmt::format(
+        "set key at screen {:.4f}, screen {:.4f} left bottom Left reverse samplen 2 width 1 maxrows {}",
+        kKeyLeft / chart_.width, kKeyBottom / height_, std::max(legend_rows_, 1.0)));
     // Ten digits tell apart whatever gnuplot puts a tick at.
     line("set format x '%.10g'; set format y '%.10g'");
     ChartRange x;
@@ -173,6 +231,10 @@ class Script {
         x.add(point.x);
         y.add(point.y);
       }
+    }
+    if (chart_.diagonal) {
+      for (const double value : {y.low, y.high}) x.add(value);
+      y = x;
     }
     if (!is_empty(chart_)) ranges(x, y);
     constexpr double kBesideBoxes = 0.6;
@@ -189,6 +251,8 @@ class Script {
   void ranges(const ChartRange& x, const ChartRange& y) {
     if (chart_.log_x) log_range("x", x, {}, {});
     if (chart_.log_y) return log_range("y", y, chart_.y_min, chart_.y_max);
+    if (chart_.diagonal && !chart_.log_x) range("x", format_real(x.low), format_real(x.high));
+    if (chart_.diagonal) return range("y", format_real(y.low), format_real(y.high));
     range("y", chart_.y_min ? format_real(*chart_.y_min) : "*",
           chart_.y_max ? format_real(*chart_.y_max) : "*");
   }
@@ -202,44 +266,59 @@ class Script {
     const double high = most.value_or(values.high * kBeyond);
     line(fmt::format("set logscale {}", axis));
     range(axis, format_real(low), format_real(high));
-    if (high / low >= kFewPowers) return;
+    constexpr double kFewPowersAcross = 1000;  // where labels without room are left out
+    const bool many = high / low >= (chart_.unsolved ? kFewPowersAcross : kFewPowers);
+    if (many && !chart_.unsolved) return;
     constexpr double kHardlyAny = 8;
-    const std::vector<double> factors = high / low < kHardlyAny
+    const std::vector<double> factors = many ? std::vector<double>{1}
+                                        : high / low < kHardlyAny
                                             ? std::vector<double>{1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9}
                                             : std::vector<double>{1, 2, 5};
-    std::string list;
+    constexpr double kBesideUnsolved = 1.5;
+    std::vector<std::pair<double, std::string>> found;
     for (double power = std::pow(10, std::floor(std::log10(low))); power <= high; power *= 10) {
       for (const double factor : factors) {
-        list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", short_number(factor * power),
-                            format_real(factor * power));
+        const double value = factor * power;
+        const bool is_time = !chart_.unsolved || value * kBesideUnsolved < *chart_.unsolved;
+        if (value >= low && value <= high && is_time) found.emplace_back(value, short_number(value));
       }
     }
-    line(fmt::format("set {}tics ({})", axis, list));
+    if (chart_.unsolved) found.emplace_back(*chart_.unsolved, "unsolved");
+    const double pixels =
+        *axis == 'x' ? chart_.width - kMargins : height_ - kLegendLine * legend_rows_ - kMargins;
+    tick_labels(axis, found, *axis == 'x',
+                [&](double value) { return std::log(value / low) / std::log(high / low) * pixels; });
   }
 
   void range(const char* axis, const std::string& low, const std::string& high) {
     line(fmt::format("set {}range [{}:{}]", axis, low, high));
   }
 
-  /// From the right, because what is largest matters most; a label without room is left out.
+  /// From the largest, which matters most; a label without room is left out. `place` is in pixels.
+  template <class Place>
+  void tick_labels(const char* axis, const std::vector<std::pair<double, std::string>>& ticks, bool across,
+                   const Place& place) {
+    constexpr double kLetterHeight = 14;
+    double room_ends = std::numeric_limits<double>::infinity();
+    std::string list;
+    for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
+      const auto& [value, words] = *tick;
+      const double half = across ? kCharWidth / 2 * static_cast<double>(words.size() + 1) : kLetterHeight / 2;
+      const bool fits = place(value) + half <= room_ends;
+      if (fits) room_ends = place(value) - half;
+      list +=
+          fmt::format("{}{} {}", list.empty() ? "" : ", ", fits ? quoted(words) : "''", format_real(value));
+    }
+    line(fmt::format("set {}tics ({})", axis, list));
+  }
+
   void ticks() {
     ChartRange x;
     for (const ChartLine& one : chart_.lines) {
       for (const ChartPoint& point : one.points) x.add(point.x);
     }
     const double pixels = (chart_.width - kMargins) / std::max(x.high - x.low, 1e-9);
-    double room_ends = std::numeric_limits<double>::infinity();
-    std::string list;
-    for (auto tick = chart_.x_ticks.rbegin(); tick != chart_.x_ticks.rend(); ++tick) {
-      const auto& [value, words] = *tick;
-      const double middle = (value - x.low) * pixels;
-      const double half = kCharWidth / 2 * static_cast<double>(words.size() + 1);
-      const bool fits = middle + half <= room_ends;
-      if (fits) room_ends = middle - half;
-      list +=
-          fmt::format("{}{} {}", list.empty() ? "" : ", ", fits ? quoted(words) : "''", format_real(value));
-    }
-    line("set xtics (" + list + ")");
+    tick_labels("x", chart_.x_ticks, true, [&](double value) { return (value - x.low) * pixels; });
     // Room for the half of the last label that stands beside the plot.
     constexpr double kLeastMargin = 3;
     line(fmt::format(
@@ -249,6 +328,7 @@ class Script {
 
   void marks() {
     int number = 20;
+    auto place = mark_places_.begin();
     for (const ChartLine& one : chart_.lines) {
       for (const ChartMark& mark : one.marks) {
         const std::string x = format_real(mark.x);
@@ -257,34 +337,20 @@ class Script {
                         "linecolor rgb '{}'",
                         number, x, x, kPalette[1]));
         if (!mark.label.empty()) {
-          line(fmt::format("set label {} {} at {}, graph 1.035 center font ',9'", number, quoted(mark.label),
-                           x));
+          const double above = 8 + kMarkHeight * static_cast<double>(place->row);
+          line(fmt::format("set label {} {} at {}, graph 1 {} offset character 0, screen {:.4f} font ',9'",
+                           number, quoted(mark.label), x, place->justified, above / height_));
         }
+        ++place;
         ++number;
       }
     }
     if (chart_.diagonal) {
-      ChartRange all;
-      for (const ChartLine& one : chart_.lines) {
-        for (const ChartPoint& point : one.points) {
-          if (!is_drawn(chart_, point)) continue;
-          all.add(point.x);
-          all.add(point.y);
-        }
-      }
-      // Whole powers of ten, so that both axes are alike.
-      if (chart_.log_x) {
-        all.low = std::pow(10, std::floor(std::log10(all.low)));
-        all.high *= 1.5;
-      }
-      const std::string range = fmt::format("[{}:{}]", format_real(all.low), format_real(all.high));
-      line(fmt::format("set xrange {0}; set yrange {0}", range));
       line(
           "set arrow 10 from graph 0, graph 0 to graph 1, graph 1 nohead linecolor rgb '#777777' dashtype 2");
     }
     if (chart_.unsolved) {
       const std::string at = format_real(*chart_.unsolved);
-      line(fmt::format("set xtics add ('unsolved' {0}); set ytics add ('unsolved' {0})", at));
       line(fmt::format("set arrow 11 from {0}, graph 0 to {0}, graph 1 nohead linecolor rgb '#cccccc'", at));
       line(
           fmt::format("set arrow 12 from graph 0, first {0} to graph 1, first {0} nohead linecolor rgb "
@@ -351,14 +417,18 @@ class Script {
         }
       }
       if (one.label.empty()) continue;
-      const std::string key = one.style == LineStyle::kBoxes
+      const std::string key = one.style == LineStyle::kBoxes && any_box(one)
                                   ? fmt::format("boxes fillstyle solid 0.35 linecolor rgb '{}'", colour)
+                              : one.style == LineStyle::kBoxes  ? "points " + few_points(colour, false)
                               : one.style == LineStyle::kPoints ? "points " + dots(false, colour)
                               : one.style == LineStyle::kSteps
                                   ? "lines " + stroke
                                   : fmt::format("linespoints {} pointtype {} pointsize {:.2f}", stroke,
                                                 one.dashed ? filled - 1 : filled, size);
-      keys += fmt::format(", \\\n  keyentry with {} title {}", key, quoted(one.label));
+      const std::vector<std::string>& words = labels_[i];
+      keys += fmt::format(", \\\n  keyentry with {} title {}", key, quoted(words.front()));
+      for (std::size_t rest = 1; rest < words.size(); ++rest)
+        keys += ", \\\n  keyentry with lines linetype nodraw title " + quoted(words[rest]);
     }
     line(plots + keys);
   }
@@ -397,6 +467,18 @@ class Script {
     return words;
   }
 
+  static std::size_t count_at(const ChartLine& one, double x) {
+    return static_cast<std::size_t>(std::count_if(one.points.begin(), one.points.end(),
+                                                  [x](const ChartPoint& point) { return point.x == x; }));
+  }
+  static bool any_box(const ChartLine& one) {
+    return std::any_of(one.points.begin(), one.points.end(),
+                       [&one](const ChartPoint& point) { return count_at(one, point.x) >= kFewestInBox; });
+  }
+  static std::string few_points(const std::string& colour, bool hollow) {
+    return fmt::format("pointtype {} pointsize 0.5 linewidth 1.2 linecolor rgb '{}'", hollow ? 6 : 7, colour);
+  }
+
   template <class Add>
   void boxes(std::size_t i, const ChartLine& one, const std::string& colour, const Add& add) {
     std::set<double> places;
@@ -407,6 +489,10 @@ class Script {
       points(data, one, [x](const ChartPoint& point) { return point.x == x; });
       const auto first = std::find_if(one.points.begin(), one.points.end(),
                                       [x](const ChartPoint& point) { return point.x == x; });
+      if (count_at(one, x) < kFewestInBox) {
+        add(fmt::format("{} using 1:2 with points {} notitle", data, few_points(colour, first->hollow)));
+        continue;
+      }
       add(
           fmt::format("{} using ({}):2:({}) with boxplot fillstyle {} linewidth 1 pointtype 6 pointsize "
                       "0.3 linecolor rgb '{}' notitle",
@@ -417,6 +503,12 @@ class Script {
 
   const Chart& chart_;
   PictureFormat format_;
+  std::vector<std::vector<std::string>> labels_;  ///< of lines, broken where they are too long
+  std::size_t label_lines_ = 0;
+  double legend_rows_ = 0;
+  double height_ = 0;  ///< of the picture, pixels
+  std::vector<MarkPlace> mark_places_;
+  std::size_t mark_rows_ = 0;
   std::string text_;
 };
 

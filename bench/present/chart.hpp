@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/present/picture_format.hpp"
 #include "sipplab/error.hpp"
 
 namespace sipplab::bench {
@@ -40,7 +41,7 @@ enum class LineStyle {
   kSteps,   ///< steps, without dots
   kPoints,  ///< dots alone
   kBoxes,   ///< at each x the box plot of all y there: quartiles, whiskers of at most 1.5 boxes, what is
-            ///< beyond
+            ///< beyond; of fewer than five dots
 };
 
 struct ChartLine {
@@ -76,12 +77,6 @@ void label_points(Chart& chart, std::size_t most = std::numeric_limits<std::size
 
 bool is_empty(const Chart& chart);
 
-enum class PictureFormat {
-  kSvg,        ///< on a white page of its own
-  kInlineSvg,  ///< within an HTML page, whose colour of text it takes
-  kPdf,
-};
-
 /// What gnuplot is told. Names of any kind are safe in it.
 std::string gnuplot_script(const Chart& chart, PictureFormat format, const std::string& file);
 
@@ -93,9 +88,6 @@ Expected<std::vector<std::string>, std::string> pictures_of(const std::vector<Ch
 /// Where a page has the picture of its chart of that number, until with_pictures() puts it there.
 std::string picture_place(std::size_t chart);
 Expected<std::string, std::string> with_pictures(std::string page, const std::vector<Chart>& charts);
-
-/// .svg or .pdf by the name of a file; one line for another one.
-Expected<PictureFormat, std::string> picture_format(const std::string& file);
 
 /// One line if gnuplot is not installed, else none: to be asked before work that ends in pictures.
 std::optional<std::string> find_gnuplot_error();

@@ -90,12 +90,6 @@ Expected<std::string, std::string> with_pictures(std::string page, const std::ve
   return text.append(page, done);
 }
 
-Expected<PictureFormat, std::string> picture_format(const std::string& file) {
-  if (file.ends_with(".svg")) return PictureFormat::kSvg;
-  if (file.ends_with(".pdf")) return PictureFormat::kPdf;
-  return Unexpected{file + ": no picture, expected a name that ends in .svg or .pdf"};
-}
-
 std::optional<std::string> find_gnuplot_error() {
   const ProgramRun run = run_program({"/bin/sh", "-c", "command -v gnuplot"}, {});
   return run.exit_code == 0 ? std::nullopt : std::optional<std::string>(kNoGnuplot);

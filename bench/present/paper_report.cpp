@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "bench/present/html_table.hpp"
 #include "bench/present/numbers.hpp"
+#include "bench/present/plots.hpp"
 #include "bench/present/template.hpp"
 #include "db/aligned.hpp"
 #include "planner/io/text.hpp"
@@ -115,6 +117,13 @@ constexpr const char* kLegend =
     "are not judged. "
     "Seconds are of another machine there and judge nothing.";
 
+/// "; n = 100 results a point".
+std::string count_words(const std::pair<std::int64_t, std::int64_t>& counts) {
+  return counts.second == 0
+             ? ""
+             : fmt::format("; n = {} results a point", range_words(counts.first, counts.second));
+}
+
 /// Points in order, and a label for each number of robots.
 void finish(Chart& chart) {
   for (ChartLine& line : chart.lines)
@@ -187,8 +196,9 @@ nlohmann::ordered_json reproduction_json(const std::vector<MeasuredCell>& cells,
   return json;
 }
 
-Chart figure_chart(const std::vector<MeasuredCell>& cells) {
+Chart figure_chart(const std::vector<MeasuredCell>& cells, const std::string& source) {
   Chart chart;
+  std::pair<std::int64_t, std::int64_t> counts{std::numeric_limits<std::int64_t>::max(), 0};
   chart.title = "empty 32 x 32, no re-scheduling";
   chart.x_label = "robots";
   chart.y_label = "share of instances solved";
@@ -200,7 +210,9 @@ Chart figure_chart(const std::vector<MeasuredCell>& cells) {
     const db::statistics::ConfidenceInterval interval = cell.success_interval();
     lines[cell.ssi_s].points.push_back(
         {static_cast<double>(cell.robots), cell.success(), false, std::pair{interval.low, interval.high}});
+    counts = {std::min(counts.first, cell.runs), std::max(counts.second, cell.runs)};
   }
+  chart.caption = source + count_words(counts) + ", bars: 95 % (Wilson)";
   int colour = 0;
   for (auto& [ssi_s, line] : lines) {
     line.label = "ssi " + ssi_text(ssi_s);
@@ -211,8 +223,9 @@ Chart figure_chart(const std::vector<MeasuredCell>& cells) {
   return chart;
 }
 
-Chart table_chart(const std::vector<MeasuredCell>& cells) {
+Chart table_chart(const std::vector<MeasuredCell>& cells, const std::string& source) {
   Chart chart;
+  std::pair<std::int64_t, std::int64_t> counts{std::numeric_limits<std::int64_t>::max(), 0};
   chart.title = "warehouse, start-safe interval 5";
   chart.x_label = "robots";
   chart.y_label = "mean planning time [s]";
@@ -225,7 +238,9 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
     constexpr double kTableSsiS = 5;
     if (cell.environment != "warehouse" || cell.ssi_s != kTableSsiS) continue;
     add(cell.reschedule + ", " + cell.order, static_cast<double>(cell.robots), cell.mean_seconds);
+    counts = {std::min(counts.first, cell.runs), std::max(counts.second, cell.runs)};
   }
+  chart.caption = source + count_words(counts) + "; dashed: the paper's, of another machine";
   for (const PaperRow& paper : paper_table()) {
     const std::string label = std::string(paper.reschedule) + ", shortest";
     if (lines.count(label) != 0 && paper.seconds) {
@@ -245,7 +260,8 @@ Chart table_chart(const std::vector<MeasuredCell>& cells) {
 }
 
 Expected<std::string, std::string> reproduction_page(const std::vector<MeasuredCell>& cells,
-                                                     const std::string& source) {
+                                                     const std::string& source,
+                                                     const std::vector<Chart>& charts) {
   return with_pictures(filled_page("reproduction", "AAMAS 2018, reproduced",
                                    {{"source", xml_escaped(source)},
                                     {"claims", html_table(claim_words(cells))},
@@ -254,7 +270,7 @@ Expected<std::string, std::string> reproduction_page(const std::vector<MeasuredC
                                     {"table_chart", picture_place(1)},
                                     {"table", html_table(table_words(cells))},
                                     {"legend", kLegend}}),
-                       {figure_chart(cells), table_chart(cells)});
+                       charts);
 }
 
 bool is_reproduced(const std::vector<MeasuredCell>& cells) {

@@ -16,8 +16,6 @@
 namespace sipplab::bench {
 namespace {
 
-/// Digits of a run's UUID that tell runs apart.
-constexpr std::size_t kRunDigits = 8;
 constexpr std::size_t kDayLength = 10;
 
 /// What tells one line from another, most general first: environment, planner, re-scheduling, order,
@@ -84,22 +82,11 @@ CellsByLine cells_by_line(const PlotRequest& request) {
   return lines;
 }
 
-/// "run 1a2b3c4d (density, 2026-01-31, 0123456789)" of each run.
-std::string run_words(const PlotRequest& request) {
+std::string words_of_runs(const PlotRequest& request) {
   std::string text;
-  for (const PlottedRun& plotted : request.runs) {
-    const db::RunSummary& run = plotted.report.run;
-    text +=
-        fmt::format("{}run {} ({}{}{})", text.empty() ? "" : ", ", run.uuid.substr(0, kRunDigits), run.suite,
-                    run.started_utc.empty() ? "" : ", " + run.started_utc.substr(0, kDayLength),
-                    run.commit_hash ? ", " + run.commit_hash->substr(0, kHashLength) : "");
-  }
+  for (const PlottedRun& plotted : request.runs)
+    text += (text.empty() ? "" : ", ") + run_words(plotted.report.run);
   return text;
-}
-
-/// "20", "20 to 100".
-std::string range_words(std::int64_t least, std::int64_t most) {
-  return least == most ? std::to_string(least) : fmt::format("{} to {}", least, most);
 }
 
 /// A chart of the lines that there are colours for, named by what tells them apart; the title says what they
@@ -124,8 +111,10 @@ Chart chart_of_lines(const PlotRequest& request, const std::string& nothing, con
   same[kRunPart] = false;  // the caption names the runs
 
   Chart chart;
-  chart.title = (first ? joined(*first, same) : nothing) + omission;
-  chart.caption = run_words(request);
+  chart.title = first ? joined(*first, same) : "";
+  if (chart.title.empty()) chart.title = nothing;
+  chart.title += omission;
+  chart.caption = words_of_runs(request);
   int colour = 0;
   const LineKey* before = nullptr;
   for (const auto& [key, cells] : lines) {
@@ -176,21 +165,6 @@ void add_count(Chart& chart, const PlotRequest& request, const std::string& more
   if (most > 0) chart.caption += fmt::format("; n = {} results a point{}", range_words(least, most), more);
 }
 
-/// All times of a chart in the unit in which the greatest reads best.
-const char* in_one_unit(Chart& chart, bool of_x = false) {
-  double greatest = 0;
-  for (const ChartLine& line : chart.lines) {
-    for (const ChartPoint& point : line.points) greatest = std::max(greatest, of_x ? point.x : point.y);
-  }
-  const auto [factor, unit] = greatest >= 1      ? std::pair{1.0, "s"}
-                              : greatest >= 1e-3 ? std::pair{kMillisecondsPerSecond, "ms"}
-                                                 : std::pair{1e6, "us"};
-  for (ChartLine& line : chart.lines) {
-    for (ChartPoint& point : line.points) (of_x ? point.x : point.y) *= factor;
-  }
-  return unit;
-}
-
 std::map<std::int64_t, const db::CellSummary*> admitted_cases(const PlotRequest& request, std::size_t run) {
   std::map<std::int64_t, const db::CellSummary*> cases;
   for (const db::CellSummary& cell : request.runs[run].report.cells) {
@@ -213,6 +187,30 @@ std::string metric_words(Measure metric) {
 }
 
 }  // namespace
+
+std::string run_words(const db::RunSummary& run) {
+  return fmt::format("run {} ({}{}{})", run.uuid.substr(0, kRunDigits), run.suite,
+                     run.started_utc.empty() ? "" : ", " + run.started_utc.substr(0, kDayLength),
+                     run.commit_hash ? ", " + run.commit_hash->substr(0, kHashLength) : "");
+}
+
+const char* in_one_unit(Chart& chart, bool of_x) {
+  double greatest = 0;
+  for (const ChartLine& line : chart.lines) {
+    for (const ChartPoint& point : line.points) greatest = std::max(greatest, of_x ? point.x : point.y);
+  }
+  const auto [factor, unit] = greatest >= 1      ? std::pair{1.0, "s"}
+                              : greatest >= 1e-3 ? std::pair{kMillisecondsPerSecond, "ms"}
+                                                 : std::pair{1e6, "us"};
+  for (ChartLine& line : chart.lines) {
+    for (ChartPoint& point : line.points) (of_x ? point.x : point.y) *= factor;
+  }
+  return unit;
+}
+
+std::string range_words(std::int64_t least, std::int64_t most) {
+  return least == most ? std::to_string(least) : fmt::format("{} to {}", least, most);
+}
 
 Chart success_chart(const PlotRequest& request) {
   Chart chart = chart_of_lines(request, "success", [](ChartLine& line, const LineKey&, const auto& cells) {
@@ -273,6 +271,7 @@ Chart cactus_chart(const PlotRequest& request) {
       });
   chart.x_label = fmt::format("planning time [{}]", in_one_unit(chart, true));
   chart.y_label = "results solved within it";
+  chart.caption += "; in the legend: solved of all";
   chart.y_min = 0;
   chart.log_x = true;
   return chart;
@@ -315,7 +314,10 @@ Chart box_chart(const PlotRequest& request, Measure metric) {
   chart.log_y = metric == Measure::kRuntimes;
   double index = 0;
   for (const std::int64_t count : robots) chart.x_ticks.emplace_back(index++, std::to_string(count));
-  add_count(chart, request, ", of those the solved; hollow: fewer than half are solved");
+  add_count(
+      chart, request,
+      ", of those the solved; boxes: quartiles, with whiskers of up to 1.5 boxes, rings: beyond; fewer than "
+      "five values are dots; hollow: fewer than half are solved");
   return chart;
 }
 
@@ -349,8 +351,8 @@ Chart improvement_chart(const PlotRequest& request) {
           line.points.push_back({at_s, 100 * sum / static_cast<double>(curves.size()), false, std::nullopt});
         }
       });
-  chart.x_label = "seconds since planning began";
-  chart.y_label = "mean gap of flowtime [%]";
+  chart.x_label = fmt::format("time since planning began [{}]", in_one_unit(chart, true));
+  chart.y_label = "mean gap of flowtime to its bound [%]";
   chart.y_min = 0;
   chart.log_x = true;
   if (most > 0) {
@@ -419,6 +421,7 @@ Expected<Chart, std::string> scatter_chart(const PlotRequest& request, Measure m
   std::transform(sides.differ.begin(), sides.differ.end(), shared.begin(),
                  [](bool differs) { return !differs; });
   std::map<std::string, Pair> pairs;
+  std::array<std::set<std::string>, 2> planners;
   for (std::size_t run = 0; run < request.runs.size(); ++run) {
     const auto cases = admitted_cases(request, run);
     for (const PlottedResult& result : request.runs[run].results) {
@@ -430,6 +433,7 @@ Expected<Chart, std::string> scatter_chart(const PlotRequest& request, Measure m
         const bool is_here =
             sides.part ? words[*sides.part] == sides.names[side] : admits(request.sides[side], of);
         if (!is_here) continue;
+        planners[side].insert(words[1]);
         Pair& pair = pairs[joined(words, shared) + '/' + result.instance];
         pair.environment = words[0];
         pair.there[side] = true;
@@ -438,18 +442,28 @@ Expected<Chart, std::string> scatter_chart(const PlotRequest& request, Measure m
     }
   }
   Chart chart;
+  const auto is_drawn = [](const Pair& pair) {
+    return pair.there[0] && pair.there[1] && (pair.values[0] || pair.values[1]);
+  };
   double greatest = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (const auto& [name, pair] : pairs) {
-    for (const auto& value : pair.values) greatest = std::max(greatest, value.value_or(0));
+    if (!is_drawn(pair)) continue;
+    for (const auto& value : pair.values) {
+      greatest = std::max(greatest, value.value_or(0));
+      if (value.value_or(0) > 0) least = std::min(least, *value);
+    }
   }
-  constexpr double kBeyond = 3;
+  // What is unsolved stands apart: a sixth of the axis at least.
+  constexpr double kFurther = 0.2;
+  const double beyond_share = std::max(3.0, std::pow(greatest / least, kFurther));
   const bool timed = metric == Measure::kRuntimes;
   const double factor = !timed ? 1 : greatest >= 1 ? 1 : kMillisecondsPerSecond;
-  const double beyond = kBeyond * greatest * factor;
+  const double beyond = beyond_share * greatest * factor;
   std::map<std::string, ChartLine> lines;
   std::array<int, 3> counts{};  // both, the first alone, the second alone
   for (const auto& [name, pair] : pairs) {
-    if (!pair.there[0] || !pair.there[1] || (!pair.values[0] && !pair.values[1])) continue;
+    if (!is_drawn(pair)) continue;
     ++counts[pair.values[0] && pair.values[1] ? 0 : pair.values[0] ? 1 : 2];
     if (!(pair.values[0] && pair.values[1])) chart.unsolved = beyond;
     lines[pair.environment].points.push_back({pair.values[0] ? *pair.values[0] * factor : beyond,
@@ -466,9 +480,15 @@ Expected<Chart, std::string> scatter_chart(const PlotRequest& request, Measure m
   chart.title = metric_words(metric) + ", instance by instance";
   chart.caption =
       fmt::format("{}; n = {}: {} solved by both, {} by the first alone, {} by the second alone",
-                  run_words(request), counts[0] + counts[1] + counts[2], counts[0], counts[1], counts[2]);
-  chart.x_label = fmt::format("{} [{}]", sides.names[0], unit);
-  chart.y_label = fmt::format("{} [{}]", sides.names[1], unit);
+                  words_of_runs(request), counts[0] + counts[1] + counts[2], counts[0], counts[1], counts[2]);
+  // Two runs of two planners are told apart by these.
+  const bool named = sides.part == kRunPart && planners[0].size() == 1 && planners[1].size() == 1 &&
+                     planners[0] != planners[1];
+  const auto axis = [&](std::size_t side) {
+    return fmt::format("{}{} [{}]", named ? *planners[side].begin() + ", " : "", sides.names[side], unit);
+  };
+  chart.x_label = axis(0);
+  chart.y_label = axis(1);
   chart.log_x = chart.log_y = true;
   chart.diagonal = true;
   constexpr int kSquare = 460;

@@ -13,6 +13,9 @@
 
 namespace sipplab::bench {
 
+/// Digits of a run's UUID that tell runs apart.
+inline constexpr std::size_t kRunDigits = 8;
+
 struct PlottedResult {
   std::int64_t case_id = 0;
   std::string instance;  ///< content, place and repetition: the same planning in another run has the same
@@ -49,6 +52,14 @@ struct PlotRequest {
 db::Result<PlottedRun> read_plotted_run(const std::filesystem::path& database, const std::string& run,
                                         bool with_results, bool with_steps);
 
+/// "run 1a2b3c4d (density, 2026-01-31, 0123456789)": what a caption says of a run.
+std::string run_words(const db::RunSummary& run);
+/// Times on an axis of a chart, in seconds before, are in the unit in which the greatest reads best: its
+/// name.
+const char* in_one_unit(Chart& chart, bool of_x = false);
+/// "20", "20 to 100".
+std::string range_words(std::int64_t least, std::int64_t most);
+
 /// Share solved over the number of robots, with 95 % intervals (Wilson).
 Chart success_chart(const PlotRequest& request);
 /// Median planning time of solved results over the number of robots; hollow where fewer than half are solved.
@@ -57,7 +68,8 @@ Chart runtime_chart(const PlotRequest& request);
 Chart cactus_chart(const PlotRequest& request);
 
 enum class Measure { kRuntimes, kFlowtimes, kMakespans };
-/// Box plots of solved results over the number of robots; hollow where fewer than half are solved.
+/// Box plots of solved results over the number of robots, dots of fewer than five; hollow where fewer than
+/// half are solved.
 Chart box_chart(const PlotRequest& request, Measure metric);
 /// Mean gap over time, from when all results have a plan; a curve that has ended keeps its last value.
 Chart improvement_chart(const PlotRequest& request);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <variant>
 
+#include "bench/present/plots.hpp"
 #include "bench/present/template.hpp"
 #include "db/queries.hpp"
 #include "planner/io/text.hpp"
@@ -65,19 +67,25 @@ std::string table_html(const db::Table& rows) {
 }
 
 Chart chart_of(const db::Table& rows, const std::string& environment, std::string_view column,
-               std::string title, std::string y_label) {
+               std::string title, std::string y_label, const std::string& source) {
   Chart chart;
+  chart.caption = source;
   chart.title = std::move(title);
   chart.x_label = "robots";
   chart.y_label = std::move(y_label);
   std::map<std::string, ChartLine> lines;
+  std::pair<std::int64_t, std::int64_t> counts{std::numeric_limits<std::int64_t>::max(), 0};
   for (const std::vector<db::Value>& row : rows.rows) {
     if (cell_text(row[0]) != environment) continue;
     const std::string planner = cell_text(row[2]);
     ChartLine& line = lines[planner];
     line.label = planner;
     line.points.push_back({number_of(row[1]), number_of(row[column_of(rows, column)])});
+    const auto instances = static_cast<std::int64_t>(number_of(row[column_of(rows, "instances")]));
+    counts = {std::min(counts.first, instances), std::max(counts.second, instances)};
   }
+  if (counts.second > 0)
+    chart.caption += fmt::format("; n = {} instances a point", range_words(counts.first, counts.second));
   for (auto& [planner, line] : lines) {
     line.colour = static_cast<int>(chart.lines.size() % kMostChartLines);
     line.dashed = chart.lines.size() >= kMostChartLines;
@@ -96,7 +104,7 @@ db::Result<db::Table> solver_rows(const std::filesystem::path& database,
   return db::run_sql(database, fmt::format(fmt::runtime(kSolverQuery), list), {});
 }
 
-std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows) {
+std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows, const std::string& source) {
   std::vector<std::pair<std::string, Chart>> charts;
   std::vector<std::string> environments;
   for (const std::vector<db::Value>& row : rows.rows) {
@@ -106,11 +114,12 @@ std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows) 
   for (const std::string& environment : environments) {
     std::string name = environment;
     std::replace(name.begin(), name.end(), '/', '-');
-    Chart success = chart_of(rows, environment, "success", environment + ": success, re-timed", "success");
+    Chart success = chart_of(rows, environment, "success", environment + ", re-timed",
+                             "share of instances solved", source);
     success.y_min = 0;
     success.y_max = 1;
     charts.emplace_back("success-" + name, std::move(success));
-    Chart seconds = chart_of(rows, environment, "planning_s", environment + ": seconds", "s");
+    Chart seconds = chart_of(rows, environment, "planning_s", environment, "mean planning time [s]", source);
     charts.emplace_back("seconds-" + name, std::move(seconds));
   }
   return charts;
@@ -119,7 +128,7 @@ std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows) 
 Expected<std::string, std::string> solvers_page(const db::Table& rows, const std::string& source) {
   std::string places;
   std::vector<Chart> charts;
-  for (auto& [name, chart] : solver_charts(rows)) {
+  for (auto& [name, chart] : solver_charts(rows, source)) {
     places += picture_place(charts.size());
     charts.push_back(std::move(chart));
   }

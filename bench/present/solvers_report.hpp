@@ -17,8 +17,8 @@ db::Result<db::Table> solver_rows(const std::filesystem::path& database,
                                   const std::vector<std::string>& runs);
 
 /// For each environment success after re-timing, and planning time, over the number of robots; with a name
-/// fit for a file.
-std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows);
+/// fit for a file. `source` says in the captions which runs they are.
+std::vector<std::pair<std::string, Chart>> solver_charts(const db::Table& rows, const std::string& source);
 
 /// All of it as one page. Errors: one line if there is no gnuplot.
 Expected<std::string, std::string> solvers_page(const db::Table& rows, const std::string& source);

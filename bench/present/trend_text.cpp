@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "bench/present/numbers.hpp"
+#include "bench/present/plots.hpp"
 #include "db/aligned.hpp"
 
 namespace sipplab::bench {
@@ -293,6 +294,7 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
     chart.title += " (not comparable: no planning is solved by all)";
   }
   chart.title += omission_note(series.size());
+  chart.caption = "a point: median of the runs of one commit; dotted: the level changed";
   const std::vector<db::TrendSeries> drawn(
       series.begin(), series.begin() + static_cast<std::ptrdiff_t>(std::min(series.size(), kMostChartLines)));
   const Places places = places_of(drawn);
@@ -302,7 +304,8 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
   for (const db::TrendSeries& one : drawn) {
     ChartLine line;
     line.colour = static_cast<int>(chart.lines.size());
-    if (drawn.size() > 1) line.label = short_label(one);
+    if (drawn.size() > 1)
+      line.label = one.case_id == 0 ? one.label : fmt::format("case {}: {}", one.case_id, label_of(one));
     for (const db::TrendPoint& point : one.points)
       line.points.push_back({x_of(point), point.value, false, std::nullopt});
     for (const db::TrendChange& change : one.changes) {
@@ -314,6 +317,7 @@ Chart trend_chart(const db::TrendMetric& metric, const std::vector<db::TrendSeri
     }
     chart.lines.push_back(std::move(line));
   }
+  if (metric.unit == "s") chart.y_label = fmt::format("{} [{}]", metric.name, in_one_unit(chart));
   std::vector<std::string> names(places.size());
   for (const db::TrendSeries& one : drawn) {
     for (const db::TrendPoint& point : one.points) names[places.at(version_key(point))] = version_name(point);

@@ -267,6 +267,13 @@ refused 'benchmark_out.*--db' bench --suite smoke --db kept.db --benchmark_out=k
 SIPPLAB_DB=kept.db refused 'svg.*the history' trend success --svg kept.db
 cmp -s kept.db history.db || complain "a history was written over"
 expect 0 plan --instance only_copy.xml -o /dev/null --svg /dev/null
+# The name of a picture says its format, or the picture is refused before any planning.
+refused 'drawn.pdf: pictures of plans are SVG, expected a name that ends in .svg' plan --instance only_copy.xml --svg drawn.pdf
+refused 'drawn: no picture, expected a name that ends in .svg' plan --instance absent.xml --svg drawn
+refused 'drawn.png: no picture' validate --instance only_copy.xml --solution plan_of_copy.xml --svg drawn.png
+refused 'drawn.pdf: pictures of plans are SVG' property replay --svg drawn.pdf
+refused 'drawn.pdf: pictures of plans are SVG' findings show 1 --svg drawn.pdf
+if [ -e drawn.pdf ] || [ -e drawn.png ] || [ -e drawn ]; then complain 'a refused picture was written'; fi
 
 # Names that SQLite has a use of its own for are files.
 expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db :memory:

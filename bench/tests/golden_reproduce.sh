@@ -40,6 +40,7 @@ cmp -s out first || complain 'resumed when finished, the run says something else
 # The pictures alone, from the history.
 expect 0 plot figure1 -o figure1.svg
 cmp -s figure1.svg page/figure1.svg || complain 'plot figure1 draws another picture than the page'
+says 'run [0-9a-f]{8} \(paper-quick.*n = 2 results a point' figure1.svg
 expect 0 plot table1 "$planned" -o table1.svg
 cmp -s table1.svg page/table1.svg || complain 'plot table1 draws another picture than the page'
 expect 0 plot figure1

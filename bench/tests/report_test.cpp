@@ -155,6 +155,41 @@ TEST(Charts, label_only_the_ticks_that_have_room) {
   }
 }
 
+TEST(Charts, break_labels_that_are_wider_than_the_picture) {
+  Chart chart = sample_chart();
+  chart.lines[0].label =
+      "warehouse, sipplab any-angle:no connectedness:3 improve:0.1s, deterministic, fifo, ssi inf";
+  const std::string script = script_of(chart);
+  EXPECT_EQ(count(script, "keyentry with"), 2U) << script;
+  EXPECT_NE(script.find("keyentry with lines linetype nodraw title 'fifo, ssi inf'"), std::string::npos)
+      << script;
+  EXPECT_NE(script.find("maxrows 2"), std::string::npos) << "room for both";
+  chart.lines[0].label = std::string(100, 'x');
+  EXPECT_EQ(count(script_of(chart), "keyentry with"), 2U) << "a word that is too long is broken, too";
+}
+
+TEST(Charts, keep_the_legend_apart_from_the_axis) {
+  Chart chart = sample_chart();
+  EXPECT_NE(script_of(chart).find("set bmargin at screen 0.2101"), std::string::npos) << script_of(chart);
+  for (int i = 0; i < 6; ++i) chart.lines.push_back(chart.lines[0]);
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("maxrows 2"), std::string::npos) << "six in a row: " << script;
+  EXPECT_NE(script.find("set bmargin at screen 0.2460"), std::string::npos) << script;
+}
+
+TEST(Charts, labels_of_marks_cover_no_other_and_stay_within) {
+  Chart chart = sample_chart();
+  chart.lines[0].marks = {{24, "1a2b -33 points"}, {28, "3c4d +50 points"}, {63.5, "5e6f +20 points"}};
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("'1a2b -33 points' at 24, graph 1 center offset character 0, screen 0.0224"),
+            std::string::npos)
+      << script;
+  EXPECT_NE(script.find("'3c4d +50 points' at 28, graph 1 center offset character 0, screen 0.0616"),
+            std::string::npos)
+      << script;
+  EXPECT_NE(script.find("'5e6f +20 points' at 63.5, graph 1 right"), std::string::npos) << script;
+}
+
 TEST(HtmlTables, escape_texts_and_say_kinds_and_styles) {
   EXPECT_EQ(
       html_table({"a<b", "n"}, {{{"<i>", "bad"}, {"1"}}}, "wn"),
@@ -263,6 +298,7 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
   const auto series_of = [](int first, int last) {
     db::TrendSeries series;
     series.case_id = first;
+    series.label = "warehouse";
     for (int i = first; i <= last; ++i) {
       db::TrendPoint point;
       point.commit = std::string(40, static_cast<char>('a' + i));
@@ -284,6 +320,8 @@ TEST(TrendChart, puts_each_series_where_its_versions_are) {
   ASSERT_EQ(chart.lines[1].marks.size(), 1U);
   EXPECT_EQ(chart.x_ticks.back().first, 7);
   EXPECT_EQ(chart.x_ticks.back().second, "iiiiiiiiii");
+  EXPECT_EQ(chart.lines[1].label, "case 5: warehouse") << "what the case is";
+  EXPECT_NE(chart.caption.find("dotted: the level changed"), std::string::npos);
   const std::vector<db::TrendSeries> many(9, series_of(1, 3));
   EXPECT_NE(trend_chart(*db::find_trend_metric("success"), many).title.find("first 7 of 9 lines"),
             std::string::npos);
@@ -389,7 +427,14 @@ TEST(Plots, draw_boxes_of_solved_results) {
   EXPECT_FALSE(chart.lines[1].points[0].hollow);
   EXPECT_LT(chart.lines[0].points[0].x, chart.lines[1].points[0].x) << "side by side";
   EXPECT_EQ(chart.x_ticks, (std::vector<std::pair<double, std::string>>{{0, "16"}}));
-  EXPECT_NE(picture_of(chart).find("<svg"), std::string::npos) << "fewer than five values make no box";
+  EXPECT_NE(picture_of(chart).find("<svg"), std::string::npos);
+  EXPECT_EQ(count(script_of(chart), "with boxplot"), 1U) << "fewer than five values make no box";
+  EXPECT_NE(script_of(chart).find("$box0_0 using 1:2 with points pointtype 6 "), std::string::npos)
+      << script_of(chart);
+  EXPECT_NE(script_of(chart).find("keyentry with points pointtype 7 pointsize 0.5"), std::string::npos)
+      << script_of(chart);
+  EXPECT_NE(script_of(chart).find("keyentry with boxes"), std::string::npos);
+  EXPECT_NE(chart.caption.find("fewer than five values are dots"), std::string::npos) << chart.caption;
 }
 
 TEST(Plots, set_two_sides_against_each_other_instance_by_instance) {
@@ -405,8 +450,27 @@ TEST(Plots, set_two_sides_against_each_other_instance_by_instance) {
             std::string::npos);
   EXPECT_EQ(chart->x_label, "none [ms]");
   EXPECT_NE(picture_of(*chart).find("unsolved"), std::string::npos);
+  // Values beside "unsolved" have no label where there is no room.
+  for (PlottedResult& result : request.runs[0].results) {
+    if (result.flowtime_s) *result.flowtime_s *= result.instance == "i3" ? 60 : 1;
+  }
+  const auto flowtimes = scatter_chart(request, Measure::kFlowtimes);
+  ASSERT_TRUE(flowtimes);
+  for (const char* ticks : {"set xtics ('unsolved' 18540, '' 10000, '5000' 5000, ",
+                            "set ytics ('unsolved' 18540, '10000' 10000, "})
+    EXPECT_NE(script_of(*flowtimes).find(ticks), std::string::npos) << script_of(*flowtimes);
   request.filter.options["reschedule"] = "none";
   EXPECT_FALSE(scatter_chart(request, Measure::kRuntimes));
+}
+
+TEST(Plots, have_a_title_where_lines_share_nothing) {
+  PlotRequest request = two_sides();
+  auto& cells = request.runs[0].report.cells;
+  cells[1].parameters.environment = "warehouse";
+  cells[1].parameters.planner = "other";
+  cells[1].parameters.options["initial_order"] = "random";
+  cells[1].parameters.options["ssi_s"] = 3.0;
+  EXPECT_EQ(success_chart(request).title, "success");
 }
 
 TEST(Plots, curves_of_improvement_keep_their_last_value) {

@@ -123,7 +123,8 @@ TEST(Reproduction, SeedsOfOneInstanceDoNotNarrowTheIntervalOfSuccess) {
 
 TEST(Reproduction, ChartsHoldEveryMeasuredCell) {
   const auto cells = the_papers_cells();
-  const Chart figure = figure_chart(cells);
+  const Chart figure = figure_chart(cells, "run 1a2b3c4d");
+  EXPECT_EQ(figure.caption, "run 1a2b3c4d; n = 100 results a point, bars: 95 % (Wilson)");
   ASSERT_EQ(figure.lines.size(), 4u);  // start-safe intervals
   ASSERT_EQ(figure.lines[0].points.size(), 2u);
   EXPECT_EQ(figure.lines[0].points[0].x, 64);
@@ -131,7 +132,8 @@ TEST(Reproduction, ChartsHoldEveryMeasuredCell) {
   ASSERT_TRUE(figure.lines[0].points[0].interval);
   EXPECT_LT(figure.lines[0].points[0].interval->first, 0.9);
   EXPECT_GT(figure.lines[0].points[0].interval->second, 0.9);
-  const Chart table = table_chart(cells);
+  const Chart table = table_chart(cells, "run 1a2b3c4d");
+  EXPECT_EQ(table.caption, "run 1a2b3c4d; n = 100 results a point; dashed: the paper's, of another machine");
   ASSERT_EQ(table.lines.size(), 5u);  // three methods, two of them beside the paper's
   EXPECT_EQ(table.lines[0].label, "deterministic, shortest");
   EXPECT_EQ(table.lines[0].points.size(), 7u);
@@ -195,7 +197,8 @@ TEST(Reproduction, WhatWasNotMeasuredIsSaidSo) {
   EXPECT_EQ(compare_with_table(cells).front().success, Standing::kNotMeasured);
   EXPECT_TRUE(is_reproduced(cells));
   EXPECT_NE(reproduction_text(cells).find("not measured"), std::string::npos);
-  const std::string page = *reproduction_page(cells, "a <run>");
+  const std::string page =
+      *reproduction_page(cells, "a <run>", {figure_chart(cells, ""), table_chart(cells, "")});
   EXPECT_NE(page.find("a &lt;run&gt;"), std::string::npos);
   EXPECT_NE(page.find("<td class=\"good\">holds</td>"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);

@@ -45,6 +45,8 @@ refused '--frobnicate, expected' pull-request --frobnicate HEAD
 refused '--frobnicate, expected' trials gate --frobnicate
 refused 'usage' trials
 refused "--worse 'makespan', expected" trials compare --worse makespan 0.1 3
+refused "build 'nothing', expected one of: expansions-count-to-165 " trials build nothing
+refused 'build, expected one of' trials build
 refused 'usage' bisect HEAD
 refused 'expected a commit' bisect HEAD no/such/commit
 refused "--calibrate 'x', expected" pull-request HEAD --calibrate x
@@ -59,6 +61,10 @@ refused "time 'x', expected" slurm --fuzz x
 refused "--program 'no/such', expected a program" slurm --program no/such --suite smoke
 refused "--seed 'x', expected a number" test-slurm --seed x
 refused '--frobnicate, expected' test-slurm --frobnicate
+# Planted changes follow the code that they change.
+for patch in "$1"/bench/gate/planted/*.patch; do
+  git -C "$1" apply --check "$patch" || { echo "BROKEN: $patch does not apply" && broken=1; }
+done
 [ -z "$(ls -A)" ] || { echo "BROKEN: something was written: $(ls -A)" && broken=1; }
 
 # --- the judge of commits -----------------------------------------------------------
@@ -106,6 +112,18 @@ grep -q "$(git rev-parse HEAD~1) is the first bad commit" "$work.out" || complai
 judge scripts/bisect --changed HEAD~6 HEAD~4 && grep -q "$(git rev-parse HEAD~5) is the first bad commit" "$work.out" ||
   complain "bisect --changed did not name the commit with other plans: $(tail -n 5 "$work.out")"
 [ "$(git status --porcelain)" = '' ] && [ "$(cat number)" -eq 7 ] || complain 'bisect changed the checkout'
+
+# A build with a planted change, of the commit that is checked out, and kept for it.
+mkdir -p bench/gate/planted && cp "$scripts/trials" scripts/
+echo 7 >code && git diff code >bench/gate/planted/sevenfold.patch && git checkout -q code
+for round in first second; do
+  judge scripts/trials build sevenfold
+  program=$(cat "$work.out")
+  [ "$(cat "$(dirname "$program")/code")" = 7 ] || complain "trials build: $round build is '$program', $(tail -n 2 "$work.err")"
+  grep -q '^' "$work.err" && [ "$round" = second ] && complain 'trials build: the same build is made twice'
+done
+[ "$(git -C build/planted/sevenfold log -1 --format=%s)" = 'Planted: sevenfold' ] || complain 'the planted change is no commit'
+rm -rf bench scripts/trials
 
 # Other plans fail until a commit says that they are expected; the base is built once.
 git checkout -q HEAD~5
