@@ -123,6 +123,7 @@ sed '1,/could be any of/d' "$work.out" | grep -q "$(git rev-parse HEAD~1)" || co
 # A build with a planted change, of the commit that is checked out, and kept for it.
 mkdir -p bench/gate/planted && cp "$scripts/trials" scripts/
 echo 7 >code && git diff code >bench/gate/planted/sevenfold.patch && git checkout -q code
+git config commit.gpgsign true && git config gpg.program false # who signs commits need not sign these
 for round in first second; do
   judge scripts/trials build sevenfold
   program=$(cat "$work.out")
@@ -132,7 +133,7 @@ done
 sed -i 's/^+7/+8/' bench/gate/planted/sevenfold.patch && judge scripts/trials build sevenfold
 [ "$(cat build/planted/sevenfold/build/release/code)" = 8 ] || complain 'trials build: an edited change is not built again'
 [ "$(git -C build/planted/sevenfold log -1 --format=%s)" = 'Planted: sevenfold' ] || complain 'the planted change is no commit'
-rm -rf bench scripts/trials
+git config --unset commit.gpgsign && rm -rf bench scripts/trials
 
 # Other plans fail until a commit says that they are expected; the base is built once.
 git checkout -q HEAD~5
