@@ -116,18 +116,18 @@ std::string describe(const RunSummary& run) {
   text += fmt::format("started   {} UTC", to_seconds(run.started_utc));
   text += run.ended_utc ? fmt::format(", ended {} UTC\n", to_seconds(*run.ended_utc)) : "\n";
   if (run.commit_hash) {
-    text += fmt::format("commit    {} {}{}{}\n", *run.commit_hash, run.commit_subject.value_or(""),
-                        run.branch.empty() ? "" : " (" + run.branch + ")",
+    text += fmt::format("commit    {} {}{}{}\n", *run.commit_hash, escaped(run.commit_subject.value_or("")),
+                        run.branch.empty() ? "" : " (" + escaped(run.branch) + ")",
                         run.dirty ? ", with uncommitted changes" : "");
   }
-  text += fmt::format("machine   {}, {}\n", run.host, run.cpu_model);
+  text += fmt::format("machine   {}, {}\n", escaped(run.host), escaped(run.cpu_model));
   text += fmt::format("build     {}, {}\n", run.compiler, run.build_type);
-  if (!run.command_line.empty()) text += fmt::format("command   {}\n", run.command_line);
+  if (!run.command_line.empty()) text += fmt::format("command   {}\n", escaped(run.command_line));
   if (run.kind == "sweep") {
     text += fmt::format("results   {} in {} cases, {} solved, {} invalid\n", run.results, run.cases,
                         run.solved, run.invalid);
   }
-  if (run.excluded_reason) text += fmt::format("excluded  {}\n", *run.excluded_reason);
+  if (run.excluded_reason) text += fmt::format("excluded  {}\n", escaped(*run.excluded_reason));
   return text;
 }
 

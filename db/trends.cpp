@@ -250,19 +250,19 @@ Result<Statement> prepare_case_trend(Database& database, const TrendMetric& metr
       kReadingTrend);
 }
 
-/// Values of the solved plannings of a cell, by what tells them apart in every run of the case: instance,
-/// repetition, and which of equal files it is.
-using SolvedValues = std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, double>;
+/// Values of the plannings of a cell, none where one is not solved, by what tells them apart in every run of
+/// the case: instance, repetition, and which of equal files it is.
+using PlanningValues = std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::optional<double>>;
 
-Result<SolvedValues> solved_values(Statement& select, std::int64_t cell) {
-  SolvedValues values;
+Result<PlanningValues> planning_values(Statement& select, std::int64_t cell) {
+  PlanningValues values;
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> occurrences;
   select.reset();
   SIPPLAB_TRY(select.bind(cell).for_each([&] {
     const std::pair planning(select.integer(0), select.integer(1));
     const std::int64_t occurrence = occurrences[planning]++;
-    if (select.integer(2) != static_cast<int>(ResultStatus::kSolved)) return;
-    values[{planning.first, planning.second, occurrence}] = select.real(3);
+    std::optional<double>& value = values[{planning.first, planning.second, occurrence}];
+    if (select.integer(2) == static_cast<int>(ResultStatus::kSolved)) value = select.real(3);
   }));
   return values;
 }
@@ -284,21 +284,23 @@ Result<Done> compare_solved(Database& database, std::string_view value, std::vec
                   "ORDER BY instance_id, position, repetition",
                   value),
       kReadingTrend));
-  std::vector<SolvedValues> runs;
+  std::vector<PlanningValues> runs;
   for (const Sample& sample : samples) {
-    auto solved = SIPPLAB_TRY(solved_values(select, sample.cell));
-    if (!runs.empty()) {
-      SolvedValues& common = runs.front();
-      std::erase_if(common, [&solved](const auto& planning) { return !solved.contains(planning.first); });
-    }
-    runs.push_back(std::move(solved));
+    runs.push_back(SIPPLAB_TRY(planning_values(select, sample.cell)));
+    std::erase_if(runs.front(), [&](const auto& planning) { return !runs.back().contains(planning.first); });
   }
-  const SolvedValues& common = runs.front();
+  // A run may have repeated what others planned once.
+  PlanningValues common = runs.front();
+  if (!common.empty()) series.plannings = static_cast<std::int64_t>(common.size());
+  std::erase_if(common, [&runs](const auto& planning) {
+    return !std::all_of(runs.begin(), runs.end(),
+                        [&](const PlanningValues& run) { return run.at(planning.first).has_value(); });
+  });
   series.solved_by_all = static_cast<std::int64_t>(common.size());
   if (common.empty()) return Done{};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     double sum = 0;
-    for (const auto& [planning, ignored] : common) sum += runs[i].at(planning);
+    for (const auto& [planning, ignored] : common) sum += *runs[i].at(planning);
     samples[i].value = sum / static_cast<double>(common.size());
   }
   return Done{};

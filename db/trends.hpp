@@ -90,7 +90,7 @@ struct TrendSeries {
   std::string context;             ///< machine and build, of timed metrics
   std::vector<TrendPoint> points;  ///< in order of history
   std::vector<TrendChange> changes;
-  /// Of metrics of solved plannings: how many a run made, and how many of them all runs solved.
+  /// Of metrics of solved plannings: how many all runs made, and how many of them all solved.
   std::int64_t plannings = 0;
   std::int64_t solved_by_all = 0;
 

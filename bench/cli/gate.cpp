@@ -242,9 +242,8 @@ Command add_gate_command(CLI::App& program) {
       program.add_subcommand("gate", "compare two builds on this machine: same plans, same speed?");
   command->footer(
       "Exit codes: 0 equivalent, improved, or the same plans with other work; 1 regressed; 3 inconclusive;\n"
-      "5 other plans and none worse for certain (0 with --expect-changes, or 3 if fewer are found, which "
-      "may\n"
-      "be chance). The machine's noise is kept under its host name, or the name in SIPPLAB_MACHINE.");
+      "5 other plans and none worse for certain; then --expect-changes gives 0, or 3 if fewer are found.\n"
+      "The noise of a machine is kept under its host name, or under the name in SIPPLAB_MACHINE.");
   add_flags(*command, *arguments);
   return {command, [arguments] { return run_gate(*arguments); }};
 }

@@ -6,9 +6,12 @@
 namespace sipplab::bench {
 namespace {
 
-/// /dev/stdout, or what a shell puts in the place of >(...): there is no name to go by.
+/// /dev/stdout, or what a shell puts in the place of >(...): there is no name to go by, wherever it leads.
 bool is_stream(const std::string& file) {
   namespace fs = std::filesystem;
+  for (const char* names : {"/dev/std", "/dev/fd/", "/proc/self/fd/"}) {
+    if (file.starts_with(names)) return true;
+  }
   std::error_code ignored;
   const fs::file_type type = fs::status(file, ignored).type();
   return type == fs::file_type::character || type == fs::file_type::fifo;

@@ -14,7 +14,7 @@ enum class PictureFormat {
   kPdf,
 };
 
-/// .svg or .pdf by the name of a file; one line for another one. A device or a pipe gets SVG.
+/// .svg or .pdf by the name of a file; one line for another one. A device, a pipe or /dev/stdout gets SVG.
 Expected<PictureFormat, std::string> picture_format(const std::string& file);
 
 /// One line if the file is not called .svg, else none: pictures of plans are SVG alone.

@@ -40,12 +40,12 @@ std::string shortened(const std::string& text, std::size_t length) {
 }
 
 std::string label_of(const db::TrendSeries& series) {
-  return series.instances.empty() ? series.label : series.label + ", " + series.instances;
+  return db::escaped(series.instances.empty() ? series.label : series.label + ", " + series.instances);
 }
 
 /// "case 7", "case 7, 10 instances", or its label if it is of no case.
 std::string short_label(const db::TrendSeries& series) {
-  if (series.case_id == 0) return series.label;
+  if (series.case_id == 0) return db::escaped(series.label);
   return fmt::format("case {}{}{}", series.case_id, series.instances.empty() ? "" : ", ", series.instances);
 }
 
@@ -69,7 +69,7 @@ std::string changes_text(const db::TrendMetric& metric, const std::vector<db::Tr
       found->second += "    ";
       if (series.size() > 1) {
         found->second += short_label(one) + ": ";
-        if (contexts && !one.context.empty()) found->second += one.context + ": ";
+        if (contexts && !one.context.empty()) found->second += db::escaped(one.context) + ": ";
       }
       found->second += change_text(metric, change) + '\n';
     }
@@ -189,7 +189,7 @@ Places places_of(const std::vector<db::TrendSeries>& series) {
 }  // namespace
 
 std::string series_name(const db::TrendSeries& series) {
-  return series.context.empty() ? label_of(series) : label_of(series) + "; " + series.context;
+  return series.context.empty() ? label_of(series) : label_of(series) + "; " + db::escaped(series.context);
 }
 
 std::string version_name(const db::TrendPoint& point) {
@@ -232,7 +232,7 @@ std::string trend_text(const db::TrendMetric& metric, const std::vector<db::Tren
   if (series.size() == 1) {
     text += one_series(metric, series.front(), rows);
   } else {
-    if (!contexts && !series.front().context.empty()) text += series.front().context + '\n';
+    if (!contexts && !series.front().context.empty()) text += db::escaped(series.front().context) + '\n';
     text += overview(metric, series, contexts);
   }
   return text + '\n' + changes_text(metric, series, contexts);

@@ -274,6 +274,20 @@ refused 'drawn.png: no picture' validate --instance only_copy.xml --solution pla
 refused 'drawn.pdf: pictures of plans are SVG' property replay --svg drawn.pdf
 refused 'drawn.pdf: pictures of plans are SVG' findings show 1 --svg drawn.pdf
 if [ -e drawn.pdf ] || [ -e drawn.png ] || [ -e drawn ]; then complain 'a refused picture was written'; fi
+expect 0 plan --instance only_copy.xml -o /dev/null --svg /dev/fd/3 3>redirected
+says '</svg>' redirected
+
+# Names come from anywhere: no control character of one reaches a terminal.
+SIPPLAB_MACHINE=$'odd\e[31m\nname' expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db odd.db
+for shown in runs show 'trend runtime'; do
+  # shellcheck disable=SC2086
+  expect 0 $shown --db odd.db
+  says 'odd.x1b\[31m.nname' out
+done
+# What one run repeated and another did not is nothing that the other failed at.
+expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db odd.db --repetitions 3
+expect 0 trend flowtime --db odd.db
+says 'over the 1 of 1 plannings that all solved' out
 
 # Names that SQLite has a use of its own for are files.
 expect 0 bench --map empty:5x5 --robots 1 --count 1 --ssi 0 --reschedule none --order fifo --db :memory:

@@ -32,6 +32,9 @@ refused "--workers 'x', expected a number" fuzz --nightly --workers x
 refused 'usage' nightly --frobnicate
 refused "time '5', expected" nightly --fuzz-for 5
 refused "--long 'soon', expected minutes" test --long soon
+refused '--all --quick, expected one of them' test --quick --all
+refused '--all, expected before the arguments of ctest' test -R property --all
+refused 'HEAD~1 and HEAD, expected one of the two' pull-request HEAD~1 HEAD
 refused 'usage' pull-request
 refused '-o, expected a value' pull-request HEAD -o
 refused 'expected a commit' pull-request no/such/commit -o here
@@ -111,19 +114,26 @@ judge scripts/bisect HEAD~6 HEAD || complain "bisect: exit code $?, $(tail -n 2 
 grep -q "$(git rev-parse HEAD~1) is the first bad commit" "$work.out" || complain "bisect did not name the first bad commit: $(tail -n 5 "$work.out")"
 judge scripts/bisect --changed HEAD~6 HEAD~4 && grep -q "$(git rev-parse HEAD~5) is the first bad commit" "$work.out" ||
   complain "bisect --changed did not name the commit with other plans: $(tail -n 5 "$work.out")"
+# What cannot be judged, because its folder cannot be made for example, is not worse.
+rm -rf build/bisect/"$(git rev-parse HEAD~2)" && touch build/bisect/"$(git rev-parse HEAD~2)"
+judge scripts/bisect HEAD~6 HEAD
+sed '1,/could be any of/d' "$work.out" | grep -q "$(git rev-parse HEAD~1)" || complain 'bisect calls worse what was not judged'
 [ "$(git status --porcelain)" = '' ] && [ "$(cat number)" -eq 7 ] || complain 'bisect changed the checkout'
 
 # A build with a planted change, of the commit that is checked out, and kept for it.
 mkdir -p bench/gate/planted && cp "$scripts/trials" scripts/
 echo 7 >code && git diff code >bench/gate/planted/sevenfold.patch && git checkout -q code
+git config commit.gpgsign true && git config gpg.program false # who signs commits need not sign these
 for round in first second; do
   judge scripts/trials build sevenfold
   program=$(cat "$work.out")
   [ "$(cat "$(dirname "$program")/code")" = 7 ] || complain "trials build: $round build is '$program', $(tail -n 2 "$work.err")"
   grep -q '^' "$work.err" && [ "$round" = second ] && complain 'trials build: the same build is made twice'
 done
+sed -i 's/^+7/+8/' bench/gate/planted/sevenfold.patch && judge scripts/trials build sevenfold
+[ "$(cat build/planted/sevenfold/build/release/code)" = 8 ] || complain 'trials build: an edited change is not built again'
 [ "$(git -C build/planted/sevenfold log -1 --format=%s)" = 'Planted: sevenfold' ] || complain 'the planted change is no commit'
-rm -rf bench scripts/trials
+git config --unset commit.gpgsign && rm -rf bench scripts/trials
 
 # Other plans fail until a commit says that they are expected; the base is built once.
 git checkout -q HEAD~5
@@ -180,6 +190,11 @@ git checkout -q --orphan stranger && git rm -rq --cached . && git add -f number 
 git checkout -qf change
 judge scripts/pull-request stranger
 [ $? -eq 2 ] && grep -q 'stranger and the checkout, expected' "$work.err" || complain "pull-request with a stranger: $(cat "$work.err")"
+# A shallow clone, of which continuous integration likes to make its checkout, may lack that commit.
+git clone -q --depth 1 --no-single-branch "file://$PWD" ../shallow && cd ../shallow || exit 1
+judge scripts/pull-request origin/landed
+[ $? -eq 2 ] && grep -q 'expected a clone with all commits' "$work.err" || complain "pull-request in a shallow clone: $(cat "$work.err")"
+cd ../toy || exit 1
 
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"
