@@ -389,7 +389,13 @@ TEST(Plots, failures_are_never_fast) {
   ASSERT_EQ(chart.lines[0].points.size(), 2U) << "where nothing is solved there is no time";
   EXPECT_FALSE(chart.lines[0].points[0].hollow);
   EXPECT_TRUE(chart.lines[0].points[1].hollow);
+  EXPECT_NE(chart.caption.find("; hollow: fewer than half"), std::string::npos);
   const Chart success = success_chart(request);
+  request.runs.push_back(request.runs[0]);
+  request.second_is_base = true;
+  EXPECT_NE(runtime_chart(request).caption.find("; hollow on a full line: fewer than half"),
+            std::string::npos)
+      << "points of the base are hollow, too";
   ASSERT_EQ(success.lines[0].points.size(), 3U);
   EXPECT_EQ(success.lines[0].points[2].y, 0);
   EXPECT_NEAR(success.lines[0].points[2].interval->second, 0.2775, 1e-4);  // Wilson, 0 of 10
