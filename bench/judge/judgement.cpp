@@ -116,6 +116,12 @@ std::string doubt(const Difference& row) {
   if (row.verdict != Verdict::kInconclusive) return "";
   if (row.metric->test == Test::kFreshPairs) return ", too noisy now to tell";
   const bool certain = row.adjusted_p <= kRecordedLevel;
+  // What is seen are losses of plannings by chance: few instances that lose all of theirs are not like that.
+  if (row.metric == &kSuccess && !certain && row.effect >= row.detectable) {
+    const std::size_t lost = row.worse();
+    return fmt::format(", which may be chance: in {} instance{} alone (spread over all, it sees {})", lost,
+                       lost == 1 ? "" : "s", seen_text(row));
+  }
   return fmt::format(", which may be {} (sees {})", certain ? "too small to matter" : "chance",
                      seen_text(row));
 }
@@ -165,6 +171,7 @@ std::string words(const Judgement& judgement, const std::vector<const Difference
 void judge_metrics(Judgement& judgement, bool excused) {
   constexpr Verdict kOf[] = {Verdict::kRegressed, Verdict::kInconclusive, Verdict::kImproved};
   std::vector<std::string> said;
+  std::vector<std::string> noise;
   for (const Verdict verdict : kOf) {
     for (const Metric* metric : kMetrics) {
       if (excused && metric->test == Test::kFreshPairs) continue;
@@ -175,9 +182,12 @@ void judge_metrics(Judgement& judgement, bool excused) {
         if (row.cell) judgement.cells[*row.cell].raise(verdict, words(row) + doubt(row));
       }
       if (rows.empty()) continue;
-      said.push_back(words(judgement, rows));
+      const bool unknown = verdict == Verdict::kInconclusive && metric->test == Test::kFreshPairs;
+      (unknown ? noise : said).push_back(words(judgement, rows));
       judgement.all.verdict = std::max(judgement.all.verdict, verdict);
     }
+    // What was lost matters more than what a noisy machine does not tell.
+    if (verdict == Verdict::kInconclusive) said.insert(said.end(), noise.begin(), noise.end());
   }
   for (const std::string& text : said) judgement.all.add(text);
 }

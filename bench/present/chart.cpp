@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -66,23 +67,28 @@ struct ChartRange {
   }
 };
 
-/// Whether two lines have a point in common, to the eye.
+/// Whether two lines have a point in common, to the eye; steps also where they go along each other.
 bool coincide(const Chart& chart) {
   constexpr double kToTheEye = 0.004;
   ChartRange y;
   for (const ChartLine& line : chart.lines) {
     for (const ChartPoint& point : line.points) y.add(point.y);
   }
-  std::set<std::pair<double, long>> places;
+  std::map<long, std::vector<ChartRange>> places;  // height, and what lies there of the lines before
   for (const ChartLine& line : chart.lines) {
-    std::set<std::pair<double, long>> own;
-    for (const ChartPoint& point : line.points) {
+    std::vector<std::pair<long, ChartRange>> own;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const ChartPoint& point = line.points[i];
       const double share = y.high > y.low ? (point.y - y.low) / (y.high - y.low) : 0;
-      own.insert({point.x, std::lround(share / kToTheEye)});
+      const bool goes_on = line.style == LineStyle::kSteps && i + 1 < line.points.size();
+      own.push_back({std::lround(share / kToTheEye), {point.x, goes_on ? line.points[i + 1].x : point.x}});
     }
-    const std::size_t together = places.size() + own.size();
-    places.merge(own);
-    if (places.size() < together) return true;
+    for (const auto& [height, part] : own) {
+      for (const ChartRange& other : places[height]) {
+        if (part.low <= other.high && other.low <= part.high) return true;
+      }
+    }
+    for (const auto& [height, part] : own) places[height].push_back(part);
   }
   return false;
 }
@@ -238,6 +244,8 @@ class Script {
     }
     if (!is_empty(chart_)) ranges(x, y);
     constexpr double kBesideBoxes = 0.6;
+    // Ends of whiskers are as wide as their box, which keeps them off the boxes beside it.
+    if (chart_.box_width > 0) line("set errorbars fullwidth");
     if (chart_.box_width > 0 && !chart_.x_ticks.empty()) {
       range("x", format_real(chart_.x_ticks.front().first - kBesideBoxes),
             format_real(chart_.x_ticks.back().first + kBesideBoxes));

@@ -245,7 +245,9 @@ Chart runtime_chart(const PlotRequest& request) {
   chart.x_label = "robots";
   chart.y_label = fmt::format("median planning time [{}]", in_one_unit(chart));
   chart.log_y = true;
-  add_count(chart, request, ", of those the solved; hollow: fewer than half are solved");
+  // Points of the base's lines are hollow anyway.
+  const std::string lines = request.second_is_base ? " on a full line" : "";
+  add_count(chart, request, ", of those the solved; hollow" + lines + ": fewer than half are solved");
   label_points(chart, kMostNumbersOfRobots);
   return chart;
 }

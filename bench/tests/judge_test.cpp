@@ -225,6 +225,27 @@ TEST(Judgement, AnInstanceLostInManyCellsIsOneLost) {
   EXPECT_EQ(result.all.verdict, Verdict::kInconclusive) << result.all.reason;
 }
 
+TEST(Judgement, ManyLossesOfFewInstancesSayWhyTheyMayBeChance) {
+  std::vector<db::PairedCell> cells = with_lost(900, 100, 0);
+  for (std::size_t i = 0; i < 900; ++i) {
+    if (i % 100 < 4) cells[0].results[i].head = failed();
+  }
+  Judgement result = measured(cells);
+  Difference time{.metric = &kProcessTime, .cell = 0, .pairs = std::vector<double>(14, 0.01)};
+  time.verdict = Verdict::kInconclusive;
+  result.differences.push_back(time);
+  judge(result, {});
+  EXPECT_EQ(result.all.verdict, Verdict::kInconclusive);
+  EXPECT_LT(row(result, kSuccess, std::nullopt).detectable, row(result, kSuccess, std::nullopt).effect);
+  EXPECT_EQ(result.all.reason.find("success -4.0 points (95 %: "), 0U) << result.all.reason;
+  EXPECT_NE(
+      result.all.reason.find("which may be chance: in 4 instances alone (spread over all, it sees from "),
+      std::string::npos)
+      << result.all.reason;
+  EXPECT_GT(result.all.reason.find("too noisy now to tell"), result.all.reason.find("may be chance"));
+  EXPECT_NE(result.all.reason.find("too noisy now to tell"), std::string::npos);
+}
+
 TEST(Judgement, AnInstanceSolvedMoreOftenByTheHeadIsGained) {
   std::vector<db::PairedCell> cells = {equal_cell(6)};
   for (db::PairedResult& result : cells[0].results) result.instance_hash = "one";

@@ -143,6 +143,12 @@ TEST(Charts, show_each_of_lines_that_coincide) {
   EXPECT_NE(script_of(chart).find("linewidth 2.40"), std::string::npos) << "the lower one is wider";
   chart.lines[1].points = {{16, 0.9}, {32, 0.4}, {64, 0.1}};
   EXPECT_EQ(script_of(chart).find("linewidth 2.40"), std::string::npos);
+  for (ChartLine& line : chart.lines) line.style = LineStyle::kSteps;
+  chart.lines[0].points = {{1, 1}, {5, 2}, {9, 3}};
+  chart.lines[1].points = {{2, 1}, {6, 2}, {8, 3}};
+  EXPECT_NE(script_of(chart).find("linewidth 2.40"), std::string::npos) << "along each other from 2 to 5";
+  chart.lines[1].points = {{2, 1.5}, {6, 2.5}, {8, 2.7}};
+  EXPECT_EQ(script_of(chart).find("linewidth 2.40"), std::string::npos);
 }
 
 TEST(Charts, label_only_the_ticks_that_have_room) {
@@ -383,7 +389,13 @@ TEST(Plots, failures_are_never_fast) {
   ASSERT_EQ(chart.lines[0].points.size(), 2U) << "where nothing is solved there is no time";
   EXPECT_FALSE(chart.lines[0].points[0].hollow);
   EXPECT_TRUE(chart.lines[0].points[1].hollow);
+  EXPECT_NE(chart.caption.find("; hollow: fewer than half"), std::string::npos);
   const Chart success = success_chart(request);
+  request.runs.push_back(request.runs[0]);
+  request.second_is_base = true;
+  EXPECT_NE(runtime_chart(request).caption.find("; hollow on a full line: fewer than half"),
+            std::string::npos)
+      << "points of the base are hollow, too";
   ASSERT_EQ(success.lines[0].points.size(), 3U);
   EXPECT_EQ(success.lines[0].points[2].y, 0);
   EXPECT_NEAR(success.lines[0].points[2].interval->second, 0.2775, 1e-4);  // Wilson, 0 of 10
@@ -428,6 +440,7 @@ TEST(Plots, draw_boxes_of_solved_results) {
   EXPECT_LT(chart.lines[0].points[0].x, chart.lines[1].points[0].x) << "side by side";
   EXPECT_EQ(chart.x_ticks, (std::vector<std::pair<double, std::string>>{{0, "16"}}));
   EXPECT_NE(picture_of(chart).find("<svg"), std::string::npos);
+  EXPECT_EQ(count(script_of(chart), "set errorbars fullwidth"), 1U) << "no whisker reaches into another box";
   EXPECT_EQ(count(script_of(chart), "with boxplot"), 1U) << "fewer than five values make no box";
   EXPECT_NE(script_of(chart).find("$box0_0 using 1:2 with points pointtype 6 "), std::string::npos)
       << script_of(chart);
