@@ -267,6 +267,18 @@ Result<PlanningValues> planning_values(Statement& select, std::int64_t cell) {
   return values;
 }
 
+double solved_share(const Sample& sample) {
+  return static_cast<double>(sample.solved) / static_cast<double>(sample.results);
+}
+
+/// Leaves runs out that solved far less than the best one: little would be left to compare the others by.
+void leave_out_failures(std::vector<Sample>& samples) {
+  double best = 0;
+  for (const Sample& sample : samples) best = std::max(best, solved_share(sample));
+  std::erase_if(samples,
+                [best](const Sample& sample) { return solved_share(sample) < kLeastSolvedShare * best; });
+}
+
 /// Makes the values of runs of a series means over the plannings that all of them solved, as `sipplab
 /// compare` pairs those of two: a version that fails on the hardest instance has no better plans.
 Result<Done> compare_solved(Database& database, std::string_view value, std::vector<Sample>& samples,
@@ -318,7 +330,10 @@ Result<std::vector<TrendSeries>> read_case_trends(Database& database, const Tren
     const std::string_view of_solved = query.metric->of_solved;
     for (auto& [key, values] : samples) {
       TrendSeries one{named.id, named.label, names[key.instances], key.context, {}, {}};
-      if (!of_solved.empty()) SIPPLAB_TRY(compare_solved(database, of_solved, values, one));
+      if (!of_solved.empty()) {
+        leave_out_failures(values);
+        SIPPLAB_TRY(compare_solved(database, of_solved, values, one));
+      }
       one.points = points_of(std::move(values), !of_solved.empty());
       series.push_back(std::move(one));
     }

@@ -98,8 +98,12 @@ struct TrendSeries {
   bool is_comparable() const { return plannings == 0 || solved_by_all > 0; }
 };
 
+/// Of the share that the best run of a series solved: runs that solved less are no part of trends of solved
+/// plannings.
+constexpr double kLeastSolvedShare = 0.5;
+
 /// Series with at least one point, by case, context and set of instances. Excluded runs are left out, and of
-/// metrics of solved plannings those that solved none.
+/// metrics of solved plannings those that solved less than kLeastSolvedShare, or none.
 Result<std::vector<TrendSeries>> read_trend(Database& database, const TrendQuery& query);
 
 struct ChangeRules {

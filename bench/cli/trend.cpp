@@ -117,9 +117,9 @@ Command add_trend_command(CLI::App& program) {
       "their own. Times are compared on one machine and kind of build only, results on one set of\n"
       "instances: a case that was planned on several sets has a series for each. Flowtime, makespan and\n"
       "mean-runtime are means over the plannings that all versions shown solved, with the share that each\n"
-      "solved beside; where there are none no change is marked. Runs that solved none are left out.\n"
-      "A change is marked when it is significant over all series shown and not too small; it informs,\n"
-      "`sipplab gate` decides.");
+      "solved beside; where there are none no change is marked. Runs that solved less than half as much as\n"
+      "the best one are left out. A change is marked when it is significant over all series shown and not\n"
+      "too small; it informs, `sipplab gate` decides.");
   return {command, [arguments] { return run_trend(*arguments); }};
 }
 

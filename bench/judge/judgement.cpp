@@ -114,7 +114,9 @@ std::string seen_text(const Difference& row) {
 /// Why a row does not count for certain.
 std::string doubt(const Difference& row) {
   if (row.verdict != Verdict::kInconclusive) return "";
-  if (row.metric->test == Test::kFreshPairs) return ", too noisy now to tell";
+  if (row.metric->test == Test::kFreshPairs) {
+    return row.at_least > 0 ? ", likely but not certain: measure again" : ", too noisy now to tell";
+  }
   const bool certain = row.adjusted_p <= kRecordedLevel;
   // What is seen are losses of plannings by chance: few instances that lose all of theirs are not like that.
   if (row.metric == &kSuccess && !certain && row.effect >= row.detectable) {

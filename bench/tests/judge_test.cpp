@@ -246,6 +246,23 @@ TEST(Judgement, ManyLossesOfFewInstancesSayWhyTheyMayBeChance) {
   EXPECT_NE(result.all.reason.find("too noisy now to tell"), std::string::npos);
 }
 
+TEST(Judgement, ADoubtfulTimeSaysWhetherItIsLikely) {
+  for (const double at_least : {-0.01, 0.02}) {
+    Judgement judgement = measured({equal_cell(8)});
+    Difference time{.metric = &kProcessTime, .cell = 0, .pairs = std::vector<double>(14, 0.06)};
+    time.effect = 0.06;
+    time.at_least = at_least;
+    time.at_most = 0.1;
+    time.verdict = Verdict::kInconclusive;
+    judgement.differences.push_back(time);
+    judge(judgement, {});
+    EXPECT_EQ(judgement.all.verdict, Verdict::kInconclusive);
+    const std::string doubt =
+        at_least > 0 ? "likely but not certain: measure again" : "too noisy now to tell";
+    EXPECT_NE(judgement.all.reason.find(", " + doubt), std::string::npos) << judgement.all.reason;
+  }
+}
+
 TEST(Judgement, AnInstanceSolvedMoreOftenByTheHeadIsGained) {
   std::vector<db::PairedCell> cells = {equal_cell(6)};
   for (db::PairedResult& result : cells[0].results) result.instance_hash = "one";

@@ -155,6 +155,15 @@ TEST_F(Trends, plans_are_compared_where_all_versions_solve) {
   EXPECT_EQ(trend("success")[0].changes.size(), 1U);
 }
 
+TEST_F(Trends, a_version_that_solved_next_to_nothing_is_left_out) {
+  for (int number = 1; number <= 8; ++number) record_version(file, {number, 1, number == 5 ? 3 : 8});
+  const auto series = trend("flowtime");
+  ASSERT_EQ(series.size(), 1U);
+  EXPECT_EQ(series[0].points.size(), 7U);
+  EXPECT_EQ(series[0].solved_by_all, 8);
+  EXPECT_EQ(trend("success")[0].points.size(), 8U);
+}
+
 TEST_F(Trends, versions_that_solved_other_plannings_are_not_compared) {
   for (int number = 1; number <= 12; ++number) {
     const std::string uuid = record_version(file, {number, number <= 6 ? 1.0 : 0.5, 4});

@@ -411,6 +411,9 @@ void solved_plannings_are_paired() {
     record(history.path(), sweep);
     if (!flowtimes.empty()) solved[sweep.info.commit->hash] = flowtimes;
   }
+  std::size_t most = 0;
+  for (const auto& [commit, flowtimes] : solved) most = std::max(most, flowtimes.size());
+  std::erase_if(solved, [most](const auto& version) { return 2 * version.second.size() < most; });
   std::set<Planning> common;
   for (int instance = 0; instance < instances; ++instance) {
     for (std::int64_t repetition = 0; repetition < 2; ++repetition) {
