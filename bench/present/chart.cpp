@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <string_view>
 
+#include "bench/present/chart_points.hpp"
 #include "bench/present/numbers.hpp"
 #include "planner/io/text.hpp"
 
@@ -52,45 +52,6 @@ std::string quoted(std::string text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
   return out + "'";
-}
-
-bool is_drawn(const Chart& chart, const ChartPoint& point) {
-  return !(chart.log_y && point.y <= 0) && !(chart.log_x && point.x <= 0) && std::isfinite(point.y);
-}
-
-struct ChartRange {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
-/// Whether two lines have a point in common, to the eye; steps also where they go along each other.
-bool coincide(const Chart& chart) {
-  constexpr double kToTheEye = 0.004;
-  ChartRange y;
-  for (const ChartLine& line : chart.lines) {
-    for (const ChartPoint& point : line.points) y.add(point.y);
-  }
-  std::map<long, std::vector<ChartRange>> places;  // height, and what lies there of the lines before
-  for (const ChartLine& line : chart.lines) {
-    std::vector<std::pair<long, ChartRange>> own;
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
-      const ChartPoint& point = line.points[i];
-      const double share = y.high > y.low ? (point.y - y.low) / (y.high - y.low) : 0;
-      const bool goes_on = line.style == LineStyle::kSteps && i + 1 < line.points.size();
-      own.push_back({std::lround(share / kToTheEye), {point.x, goes_on ? line.points[i + 1].x : point.x}});
-    }
-    for (const auto& [height, part] : own) {
-      for (const ChartRange& other : places[height]) {
-        if (part.low <= other.high && other.low <= part.high) return true;
-      }
-    }
-    for (const auto& [height, part] : own) places[height].push_back(part);
-  }
-  return false;
 }
 
 /// In lines of at most so many letters, broken at spaces.
@@ -524,22 +485,6 @@ class Script {
 
 std::string omission_note(std::size_t lines) {
   return lines > kMostChartLines ? fmt::format(" (the first {} of {} lines)", kMostChartLines, lines) : "";
-}
-
-void label_points(Chart& chart, std::size_t most) {
-  std::set<double> values;
-  for (const ChartLine& line : chart.lines) {
-    for (const ChartPoint& point : line.points) values.insert(point.x);
-  }
-  if (values.size() > most) return;
-  for (const double x : values) chart.x_ticks.emplace_back(x, short_number(x));
-}
-
-bool is_empty(const Chart& chart) {
-  return std::all_of(chart.lines.begin(), chart.lines.end(), [&chart](const ChartLine& line) {
-    return std::none_of(line.points.begin(), line.points.end(),
-                        [&chart](const ChartPoint& point) { return is_drawn(chart, point); });
-  });
 }
 
 std::string gnuplot_script(const Chart& chart, PictureFormat format, const std::string& file) {
