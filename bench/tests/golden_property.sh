@@ -8,7 +8,7 @@ properties=$(realpath "$2")
 # As in a build folder: sipplab, and the program of the properties below it.
 install -m 755 "$sipplab" sipplab
 install -D -m 755 "$properties" property_tests/properties
-unset RC_PARAMS SIPPLAB_PROPERTY_LOG
+unset RC_PARAMS SIPPLAB_ONE_CASE_OF SIPPLAB_PROPERTY_LOG
 
 # prints TEXT [FILE]: the text as it stands, not a pattern.
 prints() { grep -qF -- "$1" "${2:-out}" || complain "no '$1' in ${2:-out}: $(head -c 600 "${2:-out}")"; }
@@ -26,6 +26,10 @@ equal "$(wc -l <log)" 20 "lines of the log after a run without one"
 runs 2 env RC_PARAMS=max_success=many property_tests/properties sample
 runs 2 env RC_PARAMS='seed=7 max_sucess=9' property_tests/properties sample
 prints "RC_PARAMS: unknown key 'max_sucess', expected such as" err
+runs 1 env SIPPLAB_ONE_CASE_OF=10 property_tests/properties sample
+prints 'passed: 100 cases' err
+runs 2 env SIPPLAB_ONE_CASE_OF=0 property_tests/properties sample
+prints "SIPPLAB_ONE_CASE_OF: '0', expected a number from 1 on" err
 runs 2 property_tests/properties
 runs 3 property_tests/properties no_such_room
 prints 'expected one of any_angle_search' err
