@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <future>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "planner/core/parallel.hpp"
 #include "planner/improve/attempt.hpp"
 #include "planner/improve/static_times.hpp"
+#include "planner/improve/tighten.hpp"
 #include "planner/prioritized/limits.hpp"
 #include "sipplab/prioritized_planner.hpp"
 
@@ -20,15 +20,6 @@ namespace {
 /// busy, few enough that not many are tried on a plan that is no longer the best. (Trials on the
 /// paper's warehouse: one or two of ten iterations gain something.)
 constexpr std::uint64_t kIterationsPerRound = 4;
-
-/// Share of the flowtime that a pass of tightening must gain for another one.
-constexpr double kLeastTightening = 0.002;
-
-double length_cells(const Trajectory& trajectory) {
-  double cells = 0;
-  for (const TimedMotion& motion : trajectory.motions) cells += distance(motion.from, motion.to);
-  return cells;
-}
 
 using Planners = std::span<SingleAgentPlanner* const>;
 
@@ -49,7 +40,12 @@ class LargeNeighbourhoodSearch {
     if (!plan().order()) fill(given, order, 0, planners);
     cost_ = cost_of(instance_, plan());
     note_progress(0);
-    if (budget_.iterations > 0) tighten_all();
+    if (budget_.iterations > 0) {
+      cost_ = tighten_all(instance_, *plans_.front(), cost_, limits_, [&](const PlanCost& cost) {
+        cost_ = cost;
+        note_progress(0);
+      });
+    }
     for (std::size_t i = 1; i < planners.size() && !limits_.is_over(); ++i) copy_to(*plans_[i]);
     find_fastest_ways(planners);
   }
@@ -86,31 +82,6 @@ class LargeNeighbourhoodSearch {
   void copy_to(PartialPlan& copy) const {
     for (AgentIndex agent = 0; agent < instance_.agents.size(); ++agent) {
       copy.insert(agent, plan().trajectory(agent));
-    }
-  }
-
-  /// Lets every robot cut corners and go as early as the others let it, those that stand longest first, as
-  /// long as that gains something.
-  void tighten_all() {
-    std::vector<AgentIndex> agents(instance_.agents.size());
-    std::iota(agents.begin(), agents.end(), AgentIndex{0});
-    std::vector<double> standing_s(agents.size());
-    double before_s = kForever;
-    while (!limits_.is_over() && before_s - cost_.flowtime_s > kLeastTightening * cost_.flowtime_s) {
-      before_s = cost_.flowtime_s;
-      for (const AgentIndex agent : agents) {
-        const Trajectory& trajectory = plan().trajectory(agent);
-        standing_s[agent] =
-            trajectory.arrival_s() - length_cells(trajectory) / instance_.agents[agent].speed_cells_per_s;
-      }
-      std::stable_sort(agents.begin(), agents.end(),
-                       [&](AgentIndex a, AgentIndex b) { return standing_s[a] > standing_s[b]; });
-      for (const AgentIndex agent : agents) {
-        if (limits_.is_over()) break;
-        plans_.front()->tighten(agent);
-      }
-      cost_ = cost_of(instance_, plan());
-      if (cost_.flowtime_s < before_s) note_progress(0);
     }
   }
 

@@ -34,6 +34,8 @@ constexpr std::size_t kRobotsPerEjection = 40;
 constexpr std::uint64_t kUnitExpansions = 10;
 constexpr std::uint64_t kUnitExpansionsPerRobot = 4000;
 
+PlanCost cost_of(const Solution& plan) { return {flowtime_s(plan), makespan_s(plan)}; }
+
 class BestPlan {
  public:
   BestPlan(const Instance& instance, const PlannerOptions& options)
@@ -136,7 +138,7 @@ class BestPlan {
     PlanResult next = plan(instance_, options);
     BestStep step{kind, options.ssi_s, next.status, next.tries(), next.planning_seconds, seconds(), {}};
     if (next.status == PlanStatus::kSolved) {
-      step.cost = PlanCost{flowtime_s(next.solution), makespan_s(next.solution)};
+      step.cost = cost_of(next.solution);
     }
     result_.steps.push_back(step);
     prepend(before, next);
@@ -152,18 +154,27 @@ class BestPlan {
     prepend(takes_fallback ? planned_ : fallback_, result_.plan);
   }
 
-  /// Whether the plan of LaCAM is the better one after the work that the other one took.
+  /// Whether the plan of LaCAM is the better one after the work that the other one took, and with its corners
+  /// cut, as those of the other one are. (Four instances each: improvement ends with the better plan then in
+  /// all of the warehouse with 96 and 128 robots and in 7 of 8 of the empty map with 128 and 192; with 32 and
+  /// 64 in the warehouse both ends are within 2 %.)
   bool wins() {
     PlannerOptions improving = options_;
-    ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
-    budget.seconds = std::min(budget.seconds, time_left_s() * kShareBeforeImprovement);
-    improving.improve = budget;
+    const ImproveBudget budget = options_.improve.value_or(ImproveBudget{});
+    const double most_s = time_left_s() * kShareBeforeImprovement;
+    improving.improve = budget_of_unit_moves(budget);
+    improving.improve->seconds = std::min(improving.improve->seconds, most_s);
     begun_ = improve_unit_moves(instance_, fallback_.solution, improving,
                                 std::max(kUnitExpansions * planned_.statistics.expansions,
                                          kUnitExpansionsPerRobot * instance_.agents.size()));
-    const Solution& improved = begun_ ? begun_->solution : fallback_.solution;
-    const auto cost_of = [](const Solution& plan) { return PlanCost{flowtime_s(plan), makespan_s(plan)}; };
-    return is_better(options_.objective, cost_of(improved), cost_of(planned_.solution));
+    PlanCost cost = cost_of(begun_ ? begun_->solution : fallback_.solution);
+    if (begun_ && budget.iterations > 0) {
+      const Clock::time_point before = Clock::now();
+      improving.improve->seconds = most_s;
+      cost = tightened_cost(instance_, *begun_, improving);
+      begun_->log.curve.back().seconds += seconds_since(before);
+    }
+    return is_better(options_.objective, cost, cost_of(planned_.solution));
   }
 
   void improve_it() {

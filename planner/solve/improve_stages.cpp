@@ -4,6 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "planner/core/clock.hpp"
+#include "planner/improve/objective.hpp"
+#include "planner/improve/tighten.hpp"
+
 namespace sipplab {
 namespace {
 
@@ -26,15 +30,6 @@ void prepend(const UnitImprovement& before, ImproveResult& result) {
   result.statistics += before.statistics;
 }
 
-ImproveBudget share_of(const ImproveBudget& budget, double share) {
-  ImproveBudget part = budget;
-  part.seconds *= share;
-  if (budget.iterations != UINT64_MAX) {
-    part.iterations = static_cast<std::uint64_t>(share * static_cast<double>(budget.iterations));
-  }
-  return part;
-}
-
 ImproveBudget left_of(const ImproveBudget& budget, const UnitImprovement& done) {
   ImproveBudget left = budget;
   left.seconds = std::max(budget.seconds - done.log.curve.back().seconds, 0.0);
@@ -44,6 +39,22 @@ ImproveBudget left_of(const ImproveBudget& budget, const UnitImprovement& done) 
 
 }  // namespace
 
+ImproveBudget budget_of_unit_moves(const ImproveBudget& budget) {
+  ImproveBudget part = budget;
+  part.seconds *= kShareOfUnitMoves;
+  if (budget.iterations != UINT64_MAX) {
+    part.iterations = static_cast<std::uint64_t>(kShareOfUnitMoves * static_cast<double>(budget.iterations));
+  }
+  return part;
+}
+
+PlanCost tightened_cost(const Instance& instance, const UnitImprovement& plan,
+                        const PlannerOptions& options) {
+  PlannerOptions tightening = options;
+  tightening.ssi_s = plan.order.kept_s;
+  return tightened_cost(instance, plan.solution, plan.order.order, tightening);
+}
+
 ImproveResult improve_in_stages(const Instance& instance, const PlanResult& given,
                                 const PlannerOptions& options, const Begun& begun) {
   const ImproveBudget budget = options.improve.value_or(ImproveBudget{});
@@ -52,11 +63,25 @@ ImproveResult improve_in_stages(const Instance& instance, const PlanResult& give
   Begun unit;
   if (is_lacams || given.ssi_kept_s == 0) {
     stage.ssi_s = is_lacams ? given.ssi_s : 0;
-    stage.improve = share_of(budget, kShareOfUnitMoves);
+    stage.improve = budget_of_unit_moves(budget);
     unit = improve_unit_moves(instance, begun ? begun->solution : given.solution, stage);
   }
   stage.improve = unit ? left_of(budget, *unit) : budget;
-  const Begun& last = unit ? unit : begun;
+  bool is_in_vain = false;
+  if (unit && begun && stage.improve->iterations > 0) {
+    // A shorter plan of unit moves may have less to gain by cutting corners.
+    const Clock::time_point before = Clock::now();
+    is_in_vain = is_better(options.objective, tightened_cost(instance, *begun, stage),
+                           tightened_cost(instance, *unit, stage));
+    if (is_in_vain) {
+      unit->log.improvements = 0;
+      unit->log.curve = {
+          {unit->log.curve.back().seconds, unit->log.iterations, begun->log.curve.back().cost}};
+    }
+    unit->log.curve.back().seconds += seconds_since(before);
+    stage.improve = left_of(budget, *unit);
+  }
+  const Begun& last = unit && !is_in_vain ? unit : begun;
   stage.ssi_s = last ? last->order.kept_s : given.ssi_kept_s;
   ImproveResult result = last ? improve(instance, last->solution, last->order.order, stage)
                               : improve(instance, given.solution, given.order(), stage);

@@ -9,6 +9,7 @@
 
 #include "planner/complete/complete_planner.hpp"
 #include "planner/improve/objective.hpp"
+#include "planner/solve/improve_stages.hpp"
 #include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
@@ -128,6 +129,26 @@ const PropertyRoom room("best_plan", [] {
           RC_ASSERT(best.improvement.has_value());
         }
       });
+
+  passed &= property("the best plan: no worse than LaCAM's after some unit moves, with its corners cut", [] {
+    const PlanCase plan_case = any_noted_case();
+    const Instance& instance = plan_case.instance;
+    RC_PRE(!find_beyond_complete(instance, plan_case.options.rules));
+    const PlannerOptions options = best_options(plan_case);
+    PlannerOptions step = plan_case.options;
+    step.max_restarts = std::min<std::uint64_t>(step.max_restarts, 1);
+    RC_PRE(plan(instance, step).status == PlanStatus::kSolved);
+    step.method = Method::kComplete;
+    const PlanResult complete = plan(instance, step);
+    RC_PRE(complete.status == PlanStatus::kSolved);
+    step.improve = budget_of_unit_moves(*options.improve);
+    const auto begun = improve_unit_moves(instance, complete.solution, step);
+    RC_PRE(begun.has_value());
+    const PlanCost tightened = tightened_cost(instance, *begun, step);
+    const SolveResult best = solve(instance, options);
+    RC_CLASSIFY(best.plan.made_by == Method::kComplete, "LaCAM's is taken");
+    RC_ASSERT(!is_better(Objective{}, tightened, best.improvement->log.curve.back().cost));
+  });
 
   passed &= property("the best plan: the same again, and its tries are those of its steps", [] {
     const PlanCase plan_case = any_noted_case();

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 #include "planner/grid/neighbourhood.hpp"
 #include "planner/improve/attempt.hpp"
 #include "planner/improve/static_times.hpp"
+#include "planner/improve/tighten.hpp"
 #include "planner/solve/plan.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
@@ -20,6 +22,9 @@
 
 namespace sipplab::improvement_laws {
 namespace {
+
+/// Of sums of arrivals.
+constexpr double kRoundingS = 1e-9;
 
 struct Planned {
   PlanCase plan_case;
@@ -138,6 +143,22 @@ constexpr double kRoundingCells = 1e-9;
 
 const PropertyRoom room("improvement", [] {
   bool passed = true;
+
+  passed &= property("tightened_cost: what improve begins with", [] {
+    const Planned planned = any_planned();
+    PlannerOptions options = any_improve_options(planned.plan_case.options);
+    options.improve->iterations += 1;  // without iterations the plan stays as it is
+    const std::vector<ProgressPoint> curve = improved(planned, options).log.curve;
+    const auto first_try = std::find_if(curve.begin(), curve.end(),
+                                        [](const ProgressPoint& point) { return point.iteration > 0; });
+    const PlanCost begun = std::prev(first_try)->cost;
+    const PlanCost tightened =
+        tightened_cost(planned.plan_case.instance, planned.result.solution, planned.result.order(), options);
+    RC_CLASSIFY(tightened.flowtime_s < curve.front().cost.flowtime_s, "gains something");
+    // A pass that gains less than the rounding of sums is not noted.
+    RC_ASSERT(std::abs(tightened.flowtime_s - begun.flowtime_s) <= kRoundingS);
+    RC_ASSERT(std::abs(tightened.makespan_s - begun.makespan_s) <= kRoundingS);
+  });
 
   passed &= property("improve (1): never worse than what it was given, and as it says", [] {
     const Planned planned = any_planned();

@@ -92,6 +92,17 @@ UnitImprovement improved(const Planned& planned) {
   return std::move(*result);
 }
 
+PlanResult plan_of(const Planned& planned) {
+  PlanResult plan;
+  plan.status = PlanStatus::kSolved;
+  plan.made_by = Method::kComplete;
+  plan.solution = planned.result.solution;
+  plan.trace.push_back({planned.result.order, std::nullopt, {}});
+  plan.ssi_s = planned.options.ssi_s;
+  plan.ssi_kept_s = planned.result.ssi_kept_s;
+  return plan;
+}
+
 /// Routes of a plan of unit moves, at the earliest ticks.
 struct Routes {
   Routes(const Instance& instance, const Solution& solution)
@@ -272,13 +283,7 @@ const PropertyRoom room("unit_moves", [] {
     Planned planned = any_planned();
     const Instance& instance = planned.plan_case.instance;
     PlannerOptions& options = planned.options;
-    PlanResult given;
-    given.status = PlanStatus::kSolved;
-    given.made_by = Method::kComplete;
-    given.solution = planned.result.solution;
-    given.trace.push_back({planned.result.order, std::nullopt, {}});
-    given.ssi_s = options.ssi_s;
-    given.ssi_kept_s = planned.result.ssi_kept_s;
+    const PlanResult given = plan_of(planned);
     const auto work = [&](std::uint64_t iterations) {
       options.improve->iterations = iterations;
       return improve_in_stages(instance, given, options, {}).statistics.expansions;
@@ -289,6 +294,20 @@ const PropertyRoom room("unit_moves", [] {
     options.improve->iterations = 10;
     RC_ASSERT(after >= before + improved(planned).statistics.expansions);
   });
+
+  passed &= property(
+      "improvement that goes on is no worse than what was begun, with its corners cut",
+      [] {
+        Planned planned = any_planned();
+        const Instance& instance = planned.plan_case.instance;
+        const UnitImprovement begun = improved(planned);
+        planned.options.improve->iterations += 1;  // without iterations no corners are cut
+        const PlanCost tightened = tightened_cost(instance, begun, planned.options);
+        const ImproveResult result = improve_in_stages(instance, plan_of(planned), planned.options, begun);
+        RC_ASSERT(!is_better(planned.options.objective, tightened, result.log.curve.back().cost));
+        assert_valid(instance, result.solution, {result.ssi_kept_s, result.order.value_or(PriorityOrder{})});
+      },
+      kCasesOfWorlds / 2);
 
   passed &= property("a search by unit moves arrives when SIPP over the same disks does", [] {
     const Planned planned = any_planned();
