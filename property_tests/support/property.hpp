@@ -46,7 +46,8 @@ bool run_property(const std::string& title, const std::function<void()>& testabl
 /// nothing is drawn or logged, and properties that it does not name hold. A room that has
 /// none of those named ends with kNoSuchProperty (bench/campaigns/replay.hpp).
 ///
-/// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty.
+/// `cases` are tried if RC_PARAMS names no number; those of the room if it is empty. With
+/// SIPPLAB_ONE_CASE_OF=N in the environment one of N of these is tried, and at least one.
 template <class Testable>
 bool property(const std::string& title, Testable testable, std::optional<int> cases = std::nullopt) {
   static_assert(std::is_void_v<std::invoke_result_t<Testable&>>,
