@@ -196,5 +196,27 @@ judge scripts/pull-request origin/landed
 [ $? -eq 2 ] && grep -q 'expected a clone with all commits' "$work.err" || complain "pull-request in a shallow clone: $(cat "$work.err")"
 cd ../toy || exit 1
 
+# --- packages -----------------------------------------------------------------------
+
+# A machine that has everything, one library only for another architecture.
+cat >../programs/dpkg-query <<'TEXT'
+#!/bin/sh
+for package in "$@"; do :; done
+case "$package" in
+  libyaml-cpp-dev) echo 'arm64 installed' ;;
+  libgtest-dev) echo 'amd64 installed' && echo 'arm64 installed' ;;
+  nlohmann-json3-dev) echo 'all installed' ;;
+  *) echo 'amd64 installed' ;;
+esac
+TEXT
+echo 'echo amd64' >../programs/dpkg
+echo 'echo "$@" >>"$LOG"' >../programs/apt-get
+echo 'echo "  Depends: clang-14"' >../programs/apt-cache
+echo 'exec "$@"' >../programs/sudo
+sed -i '1{/^#!/!s/^/#!\/bin\/sh\n/}' ../programs/* && chmod +x ../programs/*
+: >"$LOG" && judge "$scripts/setup"
+grep 'install ' "$LOG" | grep -q ' libyaml-cpp-dev' || complain "setup took a package of another architecture for ours: $(cat "$LOG" "$work.err")"
+! grep -Eq 'libgtest|nlohmann|cmake' "$LOG" || complain "setup installs what is there: $(cat "$LOG")"
+
 [ "$broken" -eq 0 ] && echo 'scripts: bad arguments are refused, commits are judged'
 exit "$broken"
