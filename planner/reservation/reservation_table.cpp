@@ -147,11 +147,14 @@ inline bool ReservationTable::stands_in_the_way(Question& question, DiskId id) c
   if (!question.is_news(id)) return false;
   const MovingDisk& disk = disks_[id];
   if (askers_.time_margin_s == 0) {
-    const Closeness close =
-        closeness(question.move, question.departure_s, disk, question.radius + disk.radius);
+    const double reach = question.radius + disk.radius;
+    const Closeness close = closeness(question.move, question.departure_s, disk, reach);
     if (close == Closeness::kApart) return false;
-    if (close == Closeness::kOverlapping && question.departure_s >= question.until_s) {
-      question.later_s = std::nextafter(question.departure_s, kForever);  // how much later does not matter
+    // Unsafe departures past one disk are one interval: it holds all that lies between two of them.
+    const double last_s = std::max(question.departure_s, question.until_s);
+    if (close == Closeness::kOverlapping && last_s < kForever &&
+        (last_s == question.departure_s || closeness(question.move, last_s, disk, reach) == close)) {
+      question.later_s = std::nextafter(last_s, kForever);  // how much later does not matter
       question.blocker = id;
       return true;
     }
