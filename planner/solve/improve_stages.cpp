@@ -61,12 +61,16 @@ ImproveResult improve_in_stages(const Instance& instance, const PlanResult& give
   const bool is_lacams = given.made_by == Method::kComplete;
   PlannerOptions stage = options;
   Begun unit;
+  double in_vain_s = 0;  // unit moves that made nothing better
   if (is_lacams || given.ssi_kept_s == 0) {
     stage.ssi_s = is_lacams ? given.ssi_s : 0;
     stage.improve = budget_of_unit_moves(budget);
+    const Clock::time_point before = Clock::now();
     unit = improve_unit_moves(instance, begun ? begun->solution : given.solution, stage);
+    if (!unit) in_vain_s = seconds_since(before);
   }
   stage.improve = unit ? left_of(budget, *unit) : budget;
+  stage.improve->seconds = std::max(stage.improve->seconds - in_vain_s, 0.0);
   bool is_in_vain = false;
   if (unit && begun && stage.improve->iterations > 0) {
     // A shorter plan of unit moves may have less to gain by cutting corners.
@@ -85,6 +89,7 @@ ImproveResult improve_in_stages(const Instance& instance, const PlanResult& give
   stage.ssi_s = last ? last->order.kept_s : given.ssi_kept_s;
   ImproveResult result = last ? improve(instance, last->solution, last->order.order, stage)
                               : improve(instance, given.solution, given.order(), stage);
+  for (ProgressPoint& point : result.log.curve) point.seconds += in_vain_s;
   if (unit) prepend(*unit, result);
   if (begun) prepend(*begun, result);
   return result;

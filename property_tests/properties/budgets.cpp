@@ -190,7 +190,7 @@ const PropertyRoom room("budgets", [] {
     RC_ASSERT(result.improvement.has_value());
     // Planning is timed twice; unit moves, the pass after them and the search look again before each robot's
     // turn.
-    constexpr double kPhases = 8;
+    constexpr double kPhases = 5;
     RC_ASSERT(taken_s <= 2 * planning_s + options.improve->seconds + kPhases * kLooksOfAPhaseS);
     RC_ASSERT(result.seconds() ==
               result.plan.planning_seconds + result.improvement->log.curve.back().seconds);
