@@ -146,6 +146,7 @@ const PropertyRoom room("best_plan", [] {
     RC_PRE(begun.has_value());
     const PlanCost tightened = tightened_cost(instance, *begun, step);
     const SolveResult best = solve(instance, options);
+    RC_PRE(best.steps.front().status == PlanStatus::kSolved);  // LaCAM has fewer steps there
     RC_CLASSIFY(best.plan.made_by == Method::kComplete, "LaCAM's is taken");
     RC_ASSERT(!is_better(Objective{}, tightened, best.improvement->log.curve.back().cost));
   });
