@@ -26,20 +26,37 @@ class GoalDistances {
   /// all that were asked for before.
   std::optional<std::uint32_t> first_distance(RobotId robot, CellId cell);
 
-  /// Whether `to` is one move nearer to the robot's goal than `from`; otherwise it is one
-  /// move farther. REQUIRES: the two are neighbours, and there is a path to the goal.
-  bool is_nearer(RobotId robot, CellId from, CellId to) {
+  /// Which neighbours of a cell are nearer to the robot's goal. Valid until the robot's next question.
+  class Nearer {
+   public:
+    bool operator()(CellId to) const { return code_of(codes_, to) == code_; }
+
+   private:
+    friend GoalDistances;
+    Nearer(const std::uint8_t* codes, unsigned code) : codes_(codes), code_(code) {}
+    const std::uint8_t* codes_;
+    unsigned code_;
+  };
+  /// REQUIRES: there is a path to the goal.
+  Nearer nearer_than(RobotId robot, CellId from) {
     Search& search = searches_[robot];
     unsigned here = search.code(from);
     while (here == kUnseen && grow(search)) here = search.code(from);
     // Layers are seen whole: what is not seen yet is not nearer than what is.
-    const unsigned there = search.code(to);
-    return there != kUnseen && there == (here == 1 ? 3 : here - 1);
+    return {search.codes.data(), here == 1 ? 3 : here - 1};
   }
+
+  /// Whether `to` is one move nearer to the robot's goal than `from`; otherwise it is one
+  /// move farther. REQUIRES: the two are neighbours, and there is a path to the goal.
+  bool is_nearer(RobotId robot, CellId from, CellId to) { return nearer_than(robot, from)(to); }
 
  private:
   static constexpr unsigned kUnseen = 0;
   static constexpr std::size_t kCellsPerByte = 4;
+
+  static unsigned code_of(const std::uint8_t* codes, CellId cell) {
+    return (codes[cell / kCellsPerByte] >> (2 * (cell % kCellsPerByte))) & 3u;
+  }
 
   struct Search {
     std::vector<std::uint8_t> codes;  ///< two bits a cell: kUnseen, or 1 + distance % 3
@@ -48,9 +65,7 @@ class GoalDistances {
         next_layer;  ///< memory for the next one: robots may be asked for by different threads
     std::uint32_t depth = 0;
 
-    unsigned code(CellId cell) const {
-      return (codes[cell / kCellsPerByte] >> (2 * (cell % kCellsPerByte))) & 3u;
-    }
+    unsigned code(CellId cell) const { return code_of(codes.data(), cell); }
     void set_code(CellId cell, unsigned code) {
       codes[cell / kCellsPerByte] =
           static_cast<std::uint8_t>(codes[cell / kCellsPerByte] | code << (2 * (cell % kCellsPerByte)));

@@ -53,32 +53,27 @@ void RouteSearch::begin() {
 void RouteSearch::expand(NodeId id, const Timetable& others, SharedDistances::OfRobot& distances,
                          Tick latest) {
   const Node from = nodes_[id];
-  const auto here = others.stays(from.cell);
+  const Stay& next = others.borders(from.cell)[from.gap + 1];
+  const auto is_nearer = distances.nearer_than(from.cell);
+  const Tick begin = from.arrival + kMoveTicks;
   for (Direction direction = 0; direction < kDirections; ++direction) {
     const CellId cell = moves_.next(from.cell, direction);
     if (cell == kNoCell) continue;
-    const Tick left = distances.is_nearer(from.cell, cell) ? from.left - 1 : from.left + 1;
-    const Tick begin = from.arrival + kMoveTicks;
-    Tick end = latest - left * kMoveTicks;
-    if (from.gap < here.size()) {
-      const Stay& next = here[from.gap];
-      end = std::min(end, next.arrival - moves_.lag(direction, next.entered) + kMoveTicks);
-    }
+    const Tick left = from.left + (is_nearer(cell) ? -1 : 1);
+    const Tick end =
+        std::min(latest - left * kMoveTicks, next.arrival - moves_.lag(direction, next.entered) + kMoveTicks);
     if (end < begin) continue;
-    const auto there = others.stays(cell);
     // In each gap the earliest arrival, if the robot can go on before the next one comes.
-    for (std::size_t gap = others.first_from(cell, begin + moves_.least_lag());; ++gap) {
-      Tick arrival = begin;
-      if (gap > 0) {
-        const Stay& before = there[gap - 1];
-        arrival = std::max(arrival, before.departure + moves_.lag(before.left, direction));
-      }
+    const Stay* const borders = others.borders(cell);
+    const auto last_gap = static_cast<std::uint32_t>(others.stays(cell).size());
+    auto gap = static_cast<std::uint32_t>(others.first_from(cell, begin + moves_.least_lag()));
+    for (; gap <= last_gap; ++gap) {
+      const Stay& before = borders[gap];
+      const Tick arrival = std::max(begin, before.departure + moves_.lag(before.left, direction));
       if (arrival > end) break;
-      const bool is_last = gap == there.size();
-      if (is_last || arrival + moves_.least_lag() <= there[gap].arrival) {
-        reach({cell, static_cast<std::uint32_t>(gap), arrival, left, id}, others);
+      if (arrival + moves_.least_lag() <= borders[gap + 1].arrival) {
+        reach({cell, gap, arrival, left, id}, others);
       }
-      if (is_last) break;
     }
   }
 }

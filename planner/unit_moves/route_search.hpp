@@ -25,6 +25,8 @@ class SharedDistances {
     OfRobot(GoalDistances& all, RobotId robot, std::mutex& mutex) : all_(all), robot_(robot), lock_(mutex) {}
     /// Whether `to` is nearer to the goal than its neighbour `from`.
     bool is_nearer(CellId from, CellId to) { return all_.is_nearer(robot_, from, to); }
+    /// The same, for several neighbours of one cell.
+    GoalDistances::Nearer nearer_than(CellId from) { return all_.nearer_than(robot_, from); }
 
    private:
     GoalDistances& all_;

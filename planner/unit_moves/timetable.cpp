@@ -7,8 +7,13 @@
 
 namespace sipplab {
 
-Timetable::Timetable(const UnitMoves& moves, std::size_t robots)
-    : moves_(moves), routes_(robots), stays_(moves.grid().size()) {}
+Timetable::Timetable(const UnitMoves& moves, std::size_t robots) : moves_(moves), routes_(robots) {
+  Stay before;
+  before.departure = 0;
+  Stay after;
+  after.arrival = kNever;
+  at_.assign(moves.grid().size(), {{before, after}, {}});
+}
 
 Stay Timetable::stay(const Route& route, std::size_t stop) const {
   Stay stay;
@@ -21,46 +26,46 @@ Stay Timetable::stay(const Route& route, std::size_t stop) const {
   return stay;
 }
 
-std::size_t Timetable::first_from(CellId cell, Tick time) const {
-  const std::vector<Stay>& stays = stays_[cell];
-  const auto found = std::partition_point(stays.begin(), stays.end(),
-                                          [time](const Stay& stay) { return stay.arrival < time; });
-  return static_cast<std::size_t>(found - stays.begin());
-}
-
 void Timetable::insert(RobotId robot, Route route) {
   PLANNER_ASSERT(routes_[robot].empty() && !route.empty() && fits(route));
   for (std::size_t stop = 0; stop < route.size(); ++stop) {
     Stay added = stay(route, stop);
     added.robot = robot;
-    const CellId cell = route[stop].cell;
-    const std::size_t place = first_from(cell, added.arrival);
-    stays_[cell].insert(stays_[cell].begin() + static_cast<std::ptrdiff_t>(place), added);
+    const auto place = static_cast<std::ptrdiff_t>(first_from(route[stop].cell, added.arrival));
+    auto& [borders, arrivals] = at_[route[stop].cell];
+    borders.insert(borders.begin() + 1 + place, added);
+    arrivals.insert(arrivals.begin() + place, added.arrival);
+    fill_up(at_[route[stop].cell]);
   }
   routes_[robot] = std::move(route);
 }
 
 Route Timetable::remove(RobotId robot) {
   for (const Stop& stop : routes_[robot]) {
-    const std::size_t place = first_from(stop.cell, stop.arrival);
-    PLANNER_ASSERT(stays_[stop.cell][place].robot == robot);
-    stays_[stop.cell].erase(stays_[stop.cell].begin() + static_cast<std::ptrdiff_t>(place));
+    const auto place = static_cast<std::ptrdiff_t>(first_from(stop.cell, stop.arrival));
+    auto& [borders, arrivals] = at_[stop.cell];
+    PLANNER_ASSERT(stays(stop.cell)[static_cast<std::size_t>(place)].robot == robot);
+    borders.erase(borders.begin() + 1 + place);
+    arrivals.erase(arrivals.begin() + place);
+    fill_up(at_[stop.cell]);
   }
   return std::exchange(routes_[robot], {});
+}
+
+void Timetable::fill_up(AtCell& at) {
+  const std::size_t stays = at.borders.size() - 2;
+  at.arrivals.resize((stays + kLanes - 1) / kLanes * kLanes, kNever);
 }
 
 bool Timetable::fits(const Route& route) const {
   for (std::size_t stop = 0; stop < route.size(); ++stop) {
     const Stay wanted = stay(route, stop);
-    const std::vector<Stay>& stays = stays_[route[stop].cell];
-    const std::size_t place = first_from(route[stop].cell, wanted.arrival);
-    if (place > 0) {
-      const Stay& before = stays[place - 1];
-      if (before.departure + moves_.lag(before.left, wanted.entered) > wanted.arrival) return false;
-    }
-    if (place < stays.size()) {
-      const Stay& after = stays[place];
-      if (wanted.departure + moves_.lag(wanted.left, after.entered) > after.arrival) return false;
+    const std::size_t gap = first_from(route[stop].cell, wanted.arrival);
+    const Stay& before = borders(route[stop].cell)[gap];
+    const Stay& after = borders(route[stop].cell)[gap + 1];
+    if (before.departure + moves_.lag(before.left, wanted.entered) > wanted.arrival ||
+        wanted.departure + moves_.lag(wanted.left, after.entered) > after.arrival) {
+      return false;
     }
   }
   return true;
