@@ -128,9 +128,4 @@ bool take_over(const Round& round, const Attempt& attempt, const std::vector<Age
   return false;
 }
 
-void repeat(const Attempt& attempt, PartialPlan& copy) {
-  const Removal removal(attempt.robots, copy);
-  for (std::size_t i = 0; i < attempt.robots.size(); ++i) copy.insert(attempt.robots[i], attempt.found[i]);
-}
-
 }  // namespace sipplab

@@ -10,7 +10,7 @@
 
 namespace sipplab {
 
-/// What is the same for all attempts of a round.
+/// What an attempt depends on besides the plan.
 struct Round {
   const Instance& instance;
   const Objective& objective;
@@ -29,6 +29,7 @@ struct Attempt {
   double gain = 0;                ///< by which the objective falls; 0 if it does not
   bool is_better = false;         ///< all found a path, and the plan is better with these
   bool was_cut_short = false;     ///< by a limit: its outcome is unknown
+  std::uint64_t seen = 0;         ///< attempts that were settled before it
   SearchStatistics work;
 };
 
@@ -44,8 +45,5 @@ Attempt try_neighbourhood(const Round& round, PartialPlan& plan, Random random);
 /// REQUIRES: attempt.is_better; none of its robots is in `changed`.
 bool take_over(const Round& round, const Attempt& attempt, const std::vector<AgentIndex>& changed,
                PartialPlan& plan, PlanCost& cost);
-
-/// The same in a copy of the plan. REQUIRES: take_over() returned true for the plan.
-void repeat(const Attempt& attempt, PartialPlan& copy);
 
 }  // namespace sipplab

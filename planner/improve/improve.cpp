@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "planner/core/parallel.hpp"
-#include "planner/improve/attempt.hpp"
+#include "planner/core/attempts.hpp"
+#include "planner/improve/replica.hpp"
 #include "planner/improve/static_times.hpp"
 #include "planner/improve/tighten.hpp"
 #include "planner/prioritized/limits.hpp"
@@ -16,10 +16,8 @@
 namespace sipplab {
 namespace {
 
-/// Iterations that begin with the same plan, on any number of threads: enough to keep several
-/// busy, few enough that not many are tried on a plan that is no longer the best. (Trials on the
-/// paper's warehouse: one or two of ten iterations gain something.)
-constexpr std::uint64_t kIterationsPerRound = 4;
+/// Iterations between two looks at what ends the improvement.
+constexpr std::uint64_t kIterationsPerRound = 64;
 
 using Planners = std::span<SingleAgentPlanner* const>;
 
@@ -38,15 +36,14 @@ class LargeNeighbourhoodSearch {
     result_.log.objective = options.objective;
     fill(given, order, options.ssi_s, planners);
     if (!plan().order()) fill(given, order, 0, planners);
-    cost_ = cost_of(instance_, plan());
-    note_progress(0);
+    PlanCost cost = cost_of(instance_, plan());
+    note_progress(0, cost);
     if (budget_.iterations > 0) {
-      cost_ = tighten_all(instance_, *plans_.front(), cost_, limits_, [&](const PlanCost& cost) {
-        cost_ = cost;
-        note_progress(0);
-      });
+      cost = tighten_all(instance_, first().plan(), cost, limits_,
+                         [&](const PlanCost& better) { note_progress(0, better); });
     }
-    for (std::size_t i = 1; i < planners.size() && !limits_.is_over(); ++i) copy_to(*plans_[i]);
+    for (const auto& replica : replicas_) replica->set_cost(cost);
+    for (std::size_t i = 1; i < replicas_.size() && !limits_.is_over(); ++i) copy_to(replicas_[i]->plan());
     find_fastest_ways(planners);
   }
 
@@ -55,9 +52,9 @@ class LargeNeighbourhoodSearch {
     while (done < budget_.iterations && !instance_.agents.empty()) {
       result_.log.was_cut_short = limits_.is_over();
       if (result_.log.was_cut_short || is_optimal()) break;
-      play_round(std::min(kIterationsPerRound, budget_.iterations - done));
+      iterate(std::min(kIterationsPerRound, budget_.iterations - done));
     }
-    note_progress(done);
+    note_progress(done, first().cost());
     result_.log.bound = bound_.get();
     result_.solution = plan().solution();
     if (result_.log.keeps_guarantee) {
@@ -68,15 +65,17 @@ class LargeNeighbourhoodSearch {
   }
 
  private:
-  const PartialPlan& plan() const { return *plans_.front(); }
+  Replica& first() { return *replicas_.front(); }
+  const Replica& first() const { return *replicas_.front(); }
+  const PartialPlan& plan() const { return first().plan(); }
 
   void fill(const Solution& given, const PriorityOrder& order, double ssi_s, Planners planners) {
     result_.log.keeps_guarantee = ssi_s == options_.ssi_s;
-    plans_.clear();
+    replicas_.clear();
     for (SingleAgentPlanner* planner : planners) {
-      plans_.push_back(std::make_unique<PartialPlan>(instance_, ssi_s, *planner));
+      replicas_.push_back(std::make_unique<Replica>(givens_, ssi_s, *planner));
     }
-    for (const AgentIndex agent : order) plans_.front()->insert(agent, given.trajectories[agent]);
+    for (const AgentIndex agent : order) first().plan().insert(agent, given.trajectories[agent]);
   }
 
   void copy_to(PartialPlan& copy) const {
@@ -112,45 +111,36 @@ class LargeNeighbourhoodSearch {
   /// Whether all robots are as fast as alone.
   bool is_optimal() const {
     const LowerBound fastest = lower_bound(fastest_s_);
-    return cost_.flowtime_s <= fastest.flowtime_s && cost_.makespan_s <= fastest.makespan_s;
+    const PlanCost& cost = first().cost();
+    return cost.flowtime_s <= fastest.flowtime_s && cost.makespan_s <= fastest.makespan_s;
   }
 
-  void note_progress(std::uint64_t iteration) {
-    result_.log.curve.push_back({seconds_since(begin_), iteration, cost_});
+  void note_progress(std::uint64_t iteration, const PlanCost& cost) {
+    result_.log.curve.push_back({seconds_since(begin_), iteration, cost});
   }
 
-  /// Tries some neighbourhoods of the same plan, then takes over those that make it better, in
-  /// the order of their numbers, so that it does not matter which thread tried which.
-  void play_round(std::uint64_t iterations) {
-    const Round round{instance_, options_.objective, roulette_, fastest_s_, fastest_paths_, cost_, limits_};
-    std::vector<Attempt> attempts(iterations);
-    for_each_in_parallel(plans_.size(), attempts.size(), [&](std::size_t worker, std::size_t i) {
-      attempts[i] = try_neighbourhood(round, *plans_[worker], Random(stream_ + result_.log.iterations + i));
-    });
-    std::vector<AgentIndex> changed;
+  /// Tries some neighbourhoods, and takes over those that make the plan better, in the order of their
+  /// numbers.
+  void iterate(std::uint64_t iterations) {
+    std::uint64_t settled = result_.log.iterations;
+    const std::vector<Attempt> attempts = attempt_and_settle<Attempt>(
+        replicas_.size(), iterations,
+        [&, begin = stream_ + settled](std::size_t worker, std::size_t i) {
+          return replicas_[worker]->attempt(Random(begin + i));
+        },
+        [&](std::size_t worker, const Attempt& attempt) {
+          const bool is_taken = replicas_[worker]->settle(attempt);
+          if (worker > 0) return;
+          ++settled;
+          if (!is_taken) return;
+          ++result_.log.improvements;
+          note_progress(settled, first().cost());
+        });
     for (const Attempt& attempt : attempts) {
-      // An iteration that a limit cut short does not count, nor do those after it: the
-      // result depends on the number of iterations alone.
       if (attempt.was_cut_short) break;
       ++result_.log.iterations;
       result_.statistics += attempt.work;
-      roulette_.learn(static_cast<std::size_t>(attempt.rule), attempt.gain,
-                      static_cast<double>(attempt.work.expansions + 1));
-      if (attempt.is_better) take(round, attempt, changed);
     }
-  }
-
-  /// Takes over an attempt if it still fits and the plan is better with it.
-  void take(const Round& round, const Attempt& attempt, std::vector<AgentIndex>& changed) {
-    const auto is_changed = [&](AgentIndex robot) {
-      return std::find(changed.begin(), changed.end(), robot) != changed.end();
-    };
-    if (std::any_of(attempt.robots.begin(), attempt.robots.end(), is_changed)) return;
-    if (!take_over(round, attempt, changed, *plans_.front(), cost_)) return;
-    for (std::size_t i = 1; i < plans_.size(); ++i) repeat(attempt, *plans_[i]);
-    changed.insert(changed.end(), attempt.robots.begin(), attempt.robots.end());
-    ++result_.log.improvements;
-    note_progress(result_.log.iterations);
   }
 
   const Instance& instance_;
@@ -159,12 +149,11 @@ class LargeNeighbourhoodSearch {
   std::uint64_t stream_;  ///< where the seeds of the iterations begin
   Clock::time_point begin_;
   SearchLimits limits_;
-  std::vector<std::unique_ptr<PartialPlan>> plans_;  ///< the same plan, once for each thread
-  std::vector<Trajectory> fastest_paths_;            ///< by robot
-  std::vector<double> fastest_s_;                    ///< by robot: arrivals on these
+  std::vector<Trajectory> fastest_paths_;  ///< by robot
+  std::vector<double> fastest_s_;          ///< by robot: arrivals on these
+  Givens givens_{instance_, options_.objective, fastest_s_, fastest_paths_, limits_};
+  std::vector<std::unique_ptr<Replica>> replicas_;  ///< one for each thread
   std::future<LowerBound> bound_;
-  RuleRoulette roulette_;
-  PlanCost cost_;
   ImproveResult result_;
 };
 

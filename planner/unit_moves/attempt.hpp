@@ -24,7 +24,7 @@ struct UnitCost {
   Tick makespan = 0;
 };
 
-/// What is the same for all attempts of a round.
+/// What an attempt depends on besides the plan.
 struct UnitRound {
   const Objective& objective;
   const Roulette<kUnitWays>& paths;
@@ -36,9 +36,10 @@ struct UnitRound {
 struct UnitAttempt {
   std::size_t path = 0;
   std::vector<RobotId> robots;
-  std::vector<Route> found;  ///< by position in `robots`; fewer if one found no route
-  bool is_accepted = false;  ///< all found a route, and the plan is good enough with these
-  double gain = 0;           ///< by which the objective falls, in ticks; not below 0
+  std::vector<Route> found;    ///< by position in `robots`; fewer if one found no route
+  bool is_accepted = false;    ///< all found a route, and the plan is good enough with these
+  double gain = 0;             ///< by which the objective falls, in ticks; not below 0
+  bool was_cut_short = false;  ///< by a limit: there is nothing else
   SearchStatistics work;
 };
 
@@ -57,8 +58,7 @@ class UnitWorker {
 
   /// Puts the routes of an attempt into the plan, if they fit it and the plan costs no more than
   /// `round.worst` with them; then `cost`, which is its cost, is updated and the routes before are the
-  /// answer. Otherwise the plan stays as it was and the answer is empty. REQUIRES: attempt.is_accepted; the
-  /// robots have the routes that they had in the attempt.
+  /// answer. Otherwise the plan stays as it was and the answer is empty. REQUIRES: attempt.is_accepted.
   std::vector<Route> take_over(const UnitRound& round, const UnitAttempt& attempt, UnitCost& cost);
 
   /// Gives robots other routes. REQUIRES: all fit together.

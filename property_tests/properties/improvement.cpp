@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
+#include "planner/core/attempts.hpp"
 #include "planner/grid/neighbourhood.hpp"
-#include "planner/improve/attempt.hpp"
+#include "planner/improve/replica.hpp"
 #include "planner/improve/static_times.hpp"
 #include "planner/improve/tighten.hpp"
 #include "planner/solve/plan.hpp"
@@ -233,6 +236,25 @@ const PropertyRoom room("improvement", [] {
     RC_ASSERT(attempts.plan.solution() == attempts.given());
   });
 
+  passed &= property("after an attempt that a limit cut short nothing is taken over", [] {
+    Attempts attempts(any_planned());
+    const Round& round = attempts.round;
+    const Givens givens{round.instance, round.objective, round.fastest_s, round.fastest_paths, round.limits};
+    Replica replica(givens, 0, *attempts.planner);
+    for (const AgentIndex agent : attempts.planned.result.order()) {
+      replica.plan().insert(agent, attempts.given().trajectories[agent]);
+    }
+    replica.set_cost(round.cost);
+    const Attempt better = attempts.first_better();
+    RC_PRE(better.is_better);
+    const bool is_cut_short = *rc::gen::arbitrary<bool>();
+    Attempt before;
+    before.was_cut_short = is_cut_short;
+    RC_ASSERT(!replica.settle(before));
+    RC_ASSERT(replica.settle(better) == !is_cut_short);
+    RC_ASSERT((replica.plan().solution() == attempts.given()) == is_cut_short);
+  });
+
   passed &= property("by steps, no attempt that would be better is given up for its bounds", [] {
     Planned planned{*any_case(), {}};
     PlannerOptions& options = planned.plan_case.options;
@@ -359,6 +381,32 @@ const PropertyRoom room("improvement", [] {
         RC_ASSERT(differ);
       },
       kFewer);
+
+  passed &= property("attempts find kAttemptsAhead unsettled, in order, on any number of threads", [] {
+    struct Made {
+      std::uint64_t number = 0;
+      std::size_t found_settled = 0;
+    };
+    const auto workers = *rc::gen::inRange<std::size_t>(1, 5);
+    const auto count = *rc::gen::inRange<std::uint64_t>(0, 50);
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    std::vector<std::vector<std::uint64_t>> settled(workers);
+    const std::vector<Made> made = attempt_and_settle<Made>(
+        workers, count,
+        [&](std::size_t worker, std::uint64_t number) {
+          std::this_thread::sleep_for(std::chrono::microseconds(Random(seed + number).below(50)));
+          return Made{number, settled[worker].size()};
+        },
+        [&](std::size_t worker, const Made& attempt) { settled[worker].push_back(attempt.number); });
+    std::vector<std::uint64_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    for (const std::vector<std::uint64_t>& of_worker : settled) RC_ASSERT(of_worker == numbers);
+    RC_ASSERT(made.size() == count);
+    for (std::uint64_t number = 0; number < count; ++number) {
+      RC_ASSERT(made[number].number == number);
+      RC_ASSERT(made[number].found_settled == number + 1 - std::min(kAttemptsAhead, number + 1));
+    }
+  });
 
   passed &= property("improve (4): any number of threads gives the same plan", [] {
     const Planned planned = any_planned();

@@ -14,8 +14,8 @@
 #include "planner/retime/steps.hpp"
 #include "planner/search/sipp_search.hpp"
 #include "planner/solve/improve_stages.hpp"
-#include "planner/unit_moves/attempt.hpp"
 #include "planner/unit_moves/improve_unit_moves.hpp"
+#include "planner/unit_moves/replica.hpp"
 #include "planner/unit_moves/route_search.hpp"
 #include "property_tests/support/assert_valid.hpp"
 #include "property_tests/support/generators.hpp"
@@ -278,6 +278,28 @@ const PropertyRoom room("unit_moves", [] {
           RC_ASSERT(cost.makespan == cost_of(routes).makespan);
         }
       });
+
+  passed &= property("after an attempt by unit moves that a limit cut short nothing is taken over", [] {
+    const Planned planned = any_planned();
+    const Routes plan(planned.plan_case.instance, planned.result.solution);
+    SharedDistances distances(plan.grid, plan.starts, plan.goals);
+    const SearchLimits limits;
+    UnitReplica replica(plan.moves, distances, planned.options.objective, limits);
+    replica.begin(plan.routes);
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    UnitAttempt accepted;
+    for (std::uint64_t i = 0; i < 20 && !accepted.is_accepted; ++i) {
+      accepted = replica.attempt(Random(seed + i));
+    }
+    RC_PRE(accepted.is_accepted);
+    const bool is_cut_short = *rc::gen::arbitrary<bool>();
+    UnitAttempt before = accepted;
+    before.was_cut_short = is_cut_short;
+    before.is_accepted = false;
+    replica.settle(before);
+    replica.settle(accepted);
+    RC_ASSERT((routes_of(replica.plan()) == plan.routes) == is_cut_short);
+  });
 
   passed &= property("improvement in stages counts the work of both", [] {
     Planned planned = any_planned();

@@ -1,0 +1,58 @@
+// One thread's copy of the plan that is improved by unit moves, and of what is learned meanwhile.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "planner/unit_moves/attempt.hpp"
+
+namespace sipplab {
+
+/// Replicas that begin with the same plan and settle the same attempts are the same.
+class UnitReplica {
+ public:
+  /// All must outlive this.
+  UnitReplica(const UnitMoves& moves, SharedDistances& distances, const Objective& objective,
+              const SearchLimits& limits);
+
+  /// Begins again, with a plan that is the best one so far; keeps what was learned. REQUIRES: robots.
+  void begin(const std::vector<Route>& plan);
+
+  const Timetable& plan() const { return worker_->plan(); }
+  const UnitCost& cost() const { return cost_; }
+  const UnitCost& best() const { return best_; }
+  /// Whether the plan is the best one.
+  bool is_at_best() const { return journal_.empty(); }
+  std::uint64_t improvements() const { return improvements_; }
+
+  UnitAttempt attempt(Random random);
+  /// Takes over an attempt if it still fits and makes the plan better, or not much worse than the best one.
+  void settle(const UnitAttempt& attempt);
+  /// Back to the best plan.
+  void roll_back();
+
+ private:
+  /// The routes of some robots before a change.
+  struct Change {
+    std::vector<RobotId> robots;
+    std::vector<Route> routes;
+  };
+
+  UnitRound round() const;
+
+  const UnitMoves& moves_;
+  SharedDistances& distances_;
+  const Objective& objective_;
+  const SearchLimits& limits_;
+  std::unique_ptr<UnitWorker> worker_;
+  Roulette<kUnitWays> paths_;
+  UnitCost cost_;
+  UnitCost best_;
+  double slack_ = 0;             ///< by which a plan may be worse than the best one, in ticks
+  std::vector<Change> journal_;  ///< from the best plan to this one
+  std::uint64_t improvements_ = 0;
+  bool saw_limit_ = false;  ///< it makes no more attempts
+  bool is_over_ = false;    ///< it settles no more
+};
+
+}  // namespace sipplab
