@@ -301,6 +301,23 @@ const PropertyRoom room("unit_moves", [] {
     RC_ASSERT((routes_of(replica.plan()) == plan.routes) == is_cut_short);
   });
 
+  passed &= property("unit moves go on where their last gains are ten times those of cutting corners", [] {
+    const std::uint64_t iterations = 8500;
+    const auto gain_s = *rc::gen::inRange(0, 1000);  // in the last 1,500, as many as are left
+    const auto corners_s = *rc::gen::inRange(0, 100);
+    const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20});
+    const auto cost = [](double seconds) { return PlanCost{seconds, seconds}; };
+    constexpr double kEndS = 2000;
+    ImprovementLog log;
+    log.curve = {{0, 0, cost(9 * kEndS)},
+                 {1, *rc::gen::inRange<std::uint64_t>(0, 7000), cost(kEndS + gain_s)},
+                 {2, *rc::gen::inRange<std::uint64_t>(7001, 8500), cost(kEndS + gain_s / 2.0)},
+                 {3, iterations, cost(kEndS)}};
+    const bool goes_on = unit_moves_go_on(objective, log, cost(kEndS - corners_s));
+    RC_ASSERT(goes_on == (gain_s > 10 * corners_s));
+    RC_CLASSIFY(goes_on, "they go on");
+  });
+
   passed &= property("improvement in stages counts the work of both", [] {
     Planned planned = any_planned();
     const Instance& instance = planned.plan_case.instance;
