@@ -15,7 +15,7 @@ struct Round {
   const Instance& instance;
   const Objective& objective;
   const RuleRoulette& roulette;
-  const std::vector<double>& fastest_s;          ///< by robot: arrivals on fastest_ways
+  const std::vector<double>& fastest_s;          ///< by robot: arrivals on fastest_paths
   const std::vector<Trajectory>& fastest_paths;  ///< by robot, alone on the map
   PlanCost cost;                                 ///< of the plan
   SearchLimits limits;

@@ -37,9 +37,9 @@ bool Replica::settle(const Attempt& attempt) {
 }
 
 void Replica::forget(std::uint64_t seen) {
-  const auto unseen = std::upper_bound(change_.begin(), change_.end(), seen) - change_.begin();
-  changed_.erase(changed_.begin(), changed_.begin() + unseen);
-  change_.erase(change_.begin(), change_.begin() + unseen);
+  const auto count = std::upper_bound(change_.begin(), change_.end(), seen) - change_.begin();
+  changed_.erase(changed_.begin(), changed_.begin() + count);
+  change_.erase(change_.begin(), change_.begin() + count);
 }
 
 }  // namespace sipplab

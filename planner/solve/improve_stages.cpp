@@ -41,13 +41,17 @@ ImproveBudget left_of(const ImproveBudget& budget, const UnitImprovement& done) 
   return left;
 }
 
-/// Goes on with what is left of the budget, but for a share of it.
-void go_on(const Instance& instance, const PlannerOptions& left, UnitImprovement& done) {
+/// Goes on with a share of what is left, after as many seconds as it takes to cut corners.
+void go_on(const Instance& instance, const PlannerOptions& left, double corners_s, UnitImprovement& done) {
   PlannerOptions options = left;
   options.improve = budget_of_unit_moves(*left.improve);
+  options.improve->seconds = std::max(options.improve->seconds - corners_s, 0.0);
+  const Clock::time_point before = Clock::now();
   if (Begun more = improve_unit_moves(instance, done.solution, options)) {
     prepend(done, *more);
     done = std::move(*more);
+  } else {
+    done.log.curve.back().seconds += seconds_since(before);
   }
 }
 
@@ -65,12 +69,14 @@ ImproveBudget budget_of_unit_moves(const ImproveBudget& budget) {
 bool unit_moves_go_on(const Objective& objective, const ImprovementLog& done,
                       const PlanCost& with_corners_cut) {
   const auto value = [&](const PlanCost& cost) { return objective.of(cost.flowtime_s, cost.makespan_s); };
-  const double then = static_cast<double>(done.curve.back().iteration) * (2 - 1 / kShareOfUnitMoves);
+  const auto end = static_cast<double>(done.curve.back().iteration);
+  const double left = end * (1 / kShareOfUnitMoves - 1);
   const auto before = std::find_if(done.curve.rbegin(), done.curve.rend(), [&](const ProgressPoint& point) {
-    return static_cast<double>(point.iteration) <= then;
+    return static_cast<double>(point.iteration) <= end - left;
   });
   const double now = value(done.curve.back().cost);
-  return value(before->cost) - now > kCornersInAll * (now - value(with_corners_cut));
+  const double gain = (value(before->cost) - now) * left / (end - static_cast<double>(before->iteration));
+  return gain > kCornersInAll * (now - value(with_corners_cut));
 }
 
 PlanCost tightened_cost(const Instance& instance, const UnitImprovement& plan,
@@ -97,11 +103,13 @@ ImproveResult improve_in_stages(const Instance& instance, const PlanResult& give
   stage.improve = unit ? left_of(budget, *unit) : budget;
   stage.improve->seconds = std::max(stage.improve->seconds - in_vain_s, 0.0);
   bool is_in_vain = false;
+  const bool is_over = stage.improve->seconds <= 0 || (options.stop != nullptr && *options.stop);
   // If there were fewer iterations than robots, there is no time to cut corners more than once.
-  const bool is_asked = begun || (unit && unit->log.iterations >= instance.agents.size());
-  if (unit && is_asked && stage.improve->iterations > 0) {
+  const bool may_go_on = !begun && !is_over && unit && unit->log.iterations > instance.agents.size();
+  if (unit && (begun || may_go_on) && stage.improve->iterations > 0) {
     const Clock::time_point before = Clock::now();
     const PlanCost with_corners_cut = tightened_cost(instance, *unit, stage);
+    const double corners_s = seconds_since(before);
     // A shorter plan of unit moves may have less to gain by cutting corners.
     is_in_vain =
         begun && is_better(options.objective, tightened_cost(instance, *begun, stage), with_corners_cut);
@@ -112,8 +120,8 @@ ImproveResult improve_in_stages(const Instance& instance, const PlanResult& give
     }
     unit->log.curve.back().seconds += seconds_since(before);
     stage.improve = left_of(budget, *unit);
-    if (!is_in_vain && unit_moves_go_on(options.objective, unit->log, with_corners_cut)) {
-      go_on(instance, stage, *unit);
+    if (may_go_on && unit_moves_go_on(options.objective, unit->log, with_corners_cut)) {
+      go_on(instance, stage, corners_s, *unit);
       stage.improve = left_of(budget, *unit);
     }
   }

@@ -15,9 +15,9 @@ using Begun = std::optional<UnitImprovement>;
 /// What of a budget is for unit moves, while they gain enough. Something is left of any other than nothing.
 ImproveBudget budget_of_unit_moves(const ImproveBudget& budget);
 
-/// Whether as much work as is left after this share gains more by unit moves than at any angle: the former
-/// are taken to go on as in the same amount of work that was done last, the latter to gain a multiple of what
-/// cutting corners does. REQUIRES: the log has a curve, from the beginning.
+/// Whether what is left once unit moves have had their share gains more by them than at any angle: unit moves
+/// are taken to gain as much for their work as they did last, any angle a multiple of what cutting corners
+/// does. REQUIRES: the log has iterations, and a curve from the first of them.
 bool unit_moves_go_on(const Objective& objective, const ImprovementLog& done,
                       const PlanCost& with_corners_cut);
 

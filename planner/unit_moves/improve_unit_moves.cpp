@@ -51,8 +51,7 @@ class UnitImprover {
         stream_(Random(options.seed).next()),
         begin_(begin),
         grid_(grid),
-        moves_(grid, reach_cells_),
-        distances_(distances) {
+        moves_(grid, reach_cells_) {
     limits_.deadline = deadline_after(begin_, budget_.seconds);
     limits_.stop = options.stop;
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
@@ -157,7 +156,8 @@ class UnitImprover {
     return true;
   }
 
-  /// Tries changes of the plan, and takes over those that make it no worse, in the order of their numbers.
+  /// Tries changes of the plan, and takes over those that make it little worse at most, in the order of their
+  /// numbers.
   void iterate(std::uint64_t iterations) {
     const std::vector<UnitAttempt> attempts = attempt_and_settle<UnitAttempt>(
         replicas_.size(), iterations,
@@ -183,7 +183,6 @@ class UnitImprover {
   SearchLimits limits_;
   const FreeGrid& grid_;
   UnitMoves moves_;
-  SharedDistances& distances_;
   std::vector<std::unique_ptr<UnitReplica>> replicas_;  ///< one for each thread
   UnitCost least_;                                      ///< of robots that are alone
   std::uint64_t next_look_ = 0;                         ///< iterations

@@ -45,7 +45,7 @@ void UnitReplica::settle(const UnitAttempt& attempt) {
                static_cast<double>(attempt.work.expansions + kExpansionsPerRobot * attempt.robots.size()));
   if (!attempt.is_accepted) return;
   std::vector<Route> before = worker_->take_over(round(), attempt, cost_);
-  if (before.empty()) return;
+  if (before.empty() || before == attempt.found) return;  // the same as another attempt
   if (is_better(objective_, cost_, best_)) {
     best_ = cost_;
     journal_.clear();

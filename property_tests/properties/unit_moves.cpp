@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -302,19 +303,22 @@ const PropertyRoom room("unit_moves", [] {
   });
 
   passed &= property("unit moves go on where their last gains are ten times those of cutting corners", [] {
-    const std::uint64_t iterations = 8500;
-    const auto gain_s = *rc::gen::inRange(0, 1000);  // in the last 1,500, as many as are left
+    constexpr std::uint64_t kIterations = 8500;  // and 1,500 are left
+    const auto gain_s = *rc::gen::inRange(0, 1000);
     const auto corners_s = *rc::gen::inRange(0, 100);
     const Objective objective = *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 20});
     const auto cost = [](double seconds) { return PlanCost{seconds, seconds}; };
     constexpr double kEndS = 2000;
+    const auto since = *rc::gen::inRange<std::uint64_t>(0, 7000);
     ImprovementLog log;
     log.curve = {{0, 0, cost(9 * kEndS)},
-                 {1, *rc::gen::inRange<std::uint64_t>(0, 7000), cost(kEndS + gain_s)},
-                 {2, *rc::gen::inRange<std::uint64_t>(7001, 8500), cost(kEndS + gain_s / 2.0)},
-                 {3, iterations, cost(kEndS)}};
+                 {1, since, cost(kEndS + gain_s)},
+                 {2, *rc::gen::inRange<std::uint64_t>(7001, kIterations), cost(kEndS + gain_s / 2.0)},
+                 {3, kIterations, cost(kEndS)}};
     const bool goes_on = unit_moves_go_on(objective, log, cost(kEndS - corners_s));
-    RC_ASSERT(goes_on == (gain_s > 10 * corners_s));
+    const double expected_s = gain_s * 1500.0 / static_cast<double>(kIterations - since);
+    RC_PRE(std::abs(expected_s - 10 * corners_s) > 1e-6);
+    RC_ASSERT(goes_on == (expected_s > 10 * corners_s));
     RC_CLASSIFY(goes_on, "they go on");
   });
 
