@@ -32,14 +32,14 @@ bool Replica::settle(const Attempt& attempt) {
     return false;
   }
   changed_.insert(changed_.end(), attempt.robots.begin(), attempt.robots.end());
-  change_.resize(changed_.size(), settled_);
+  changed_by_.resize(changed_.size(), settled_);
   return true;
 }
 
 void Replica::forget(std::uint64_t seen) {
-  const auto count = std::upper_bound(change_.begin(), change_.end(), seen) - change_.begin();
+  const auto count = std::upper_bound(changed_by_.begin(), changed_by_.end(), seen) - changed_by_.begin();
   changed_.erase(changed_.begin(), changed_.begin() + count);
-  change_.erase(change_.begin(), change_.begin() + count);
+  changed_by_.erase(changed_by_.begin(), changed_by_.begin() + count);
 }
 
 }  // namespace sipplab

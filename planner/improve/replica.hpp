@@ -44,11 +44,11 @@ class Replica {
   PartialPlan plan_;
   PlanCost cost_;
   RuleRoulette roulette_;
-  std::uint64_t settled_ = 0;          ///< attempts
-  std::vector<AgentIndex> changed_;    ///< robots that attempts still to be settled may not have seen so
-  std::vector<std::uint64_t> change_;  ///< and which attempt it was
-  bool saw_limit_ = false;             ///< it makes no more attempts
-  bool is_over_ = false;               ///< it settles no more
+  std::uint64_t settled_ = 0;              ///< attempts
+  std::vector<AgentIndex> changed_;        ///< robots that attempts still to be settled may not have seen so
+  std::vector<std::uint64_t> changed_by_;  ///< the number of the attempt, ascending
+  bool saw_limit_ = false;                 ///< it makes no more attempts
+  bool is_over_ = false;                   ///< it settles no more
 };
 
 }  // namespace sipplab
