@@ -20,7 +20,8 @@ struct UnitImprovement {
   SearchStatistics statistics;
 };
 
-/// Improves a plan of unit moves until a limit is reached, or until it gains too little to be worth while:
+/// Improves a plan of unit moves until a limit is reached, or until it gains next to nothing and most of the
+/// budget is used:
 ///  (1) the result is never worse than the given plan (is_better());
 ///  (2) it is free of conflicts, and of unit moves and waits alone;
 ///  (3) the same input, options and number of iterations give the same result, on any number of threads.

@@ -20,10 +20,11 @@ UnitReplica::UnitReplica(const UnitMoves& moves, SharedDistances& distances, con
     : moves_(moves), distances_(distances), objective_(objective), limits_(limits) {}
 
 void UnitReplica::begin(const std::vector<Route>& plan) {
+  const bool is_first = worker_ == nullptr;
   worker_ = std::make_unique<UnitWorker>(moves_, distances_, plan);
-  best_ = cost_ = worker_->cost();
-  slack_ = kSlack * value(objective_, best_) / static_cast<double>(plan.size());
-  journal_.clear();
+  cost_ = worker_->cost();
+  stay();
+  if (is_first || is_better(objective_, cost_, least_)) least_ = cost_;
 }
 
 UnitRound UnitReplica::round() const {
@@ -49,10 +50,12 @@ void UnitReplica::settle(const UnitAttempt& attempt) {
   if (is_better(objective_, cost_, best_)) {
     best_ = cost_;
     journal_.clear();
+    if (!is_better(objective_, best_, least_)) return;
+    least_ = best_;
     ++improvements_;
   } else {
     journal_.push_back({attempt.robots, std::move(before)});
-    if (journal_.size() > plan().robots()) roll_back();
+    if (!is_wandering_ && journal_.size() > plan().robots()) roll_back();
   }
 }
 
@@ -61,6 +64,18 @@ void UnitReplica::roll_back() {
     worker_->replace(journal_.back().robots, journal_.back().routes);
   }
   cost_ = best_;
+}
+
+void UnitReplica::wander(double share) {
+  slack_ = share * value(objective_, best_);
+  is_wandering_ = true;
+}
+
+void UnitReplica::stay() {
+  best_ = cost_;
+  slack_ = kSlack * value(objective_, best_) / static_cast<double>(plan().robots());
+  is_wandering_ = false;
+  journal_.clear();
 }
 
 }  // namespace sipplab

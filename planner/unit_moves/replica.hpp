@@ -15,7 +15,7 @@ class UnitReplica {
   UnitReplica(const UnitMoves& moves, SharedDistances& distances, const Objective& objective,
               const SearchLimits& limits);
 
-  /// Begins again, with a plan that is the best one so far; keeps what was learned. REQUIRES: robots.
+  /// Begins again, with a plan that is the best one from then on; keeps what was learned. REQUIRES: robots.
   void begin(const std::vector<Route>& plan);
 
   const Timetable& plan() const { return worker_->plan(); }
@@ -23,6 +23,7 @@ class UnitReplica {
   const UnitCost& best() const { return best_; }
   /// Whether the plan is the best one.
   bool is_at_best() const { return journal_.empty(); }
+  /// How often a plan was better than all before.
   std::uint64_t improvements() const { return improvements_; }
 
   UnitAttempt attempt(Random random);
@@ -30,6 +31,10 @@ class UnitReplica {
   void settle(const UnitAttempt& attempt);
   /// Back to the best plan.
   void roll_back();
+  /// From then on takes over plans that are worse than the best one by up to a share of its value.
+  void wander(double share);
+  /// Ends that: the plan is the best one from then on.
+  void stay();
 
  private:
   /// The routes of some robots before a change.
@@ -48,7 +53,9 @@ class UnitReplica {
   Roulette<kUnitWays> paths_;
   UnitCost cost_;
   UnitCost best_;
-  double slack_ = 0;             ///< by which a plan may be worse than the best one, in ticks
+  UnitCost least_;    ///< of all plans
+  double slack_ = 0;  ///< by which a plan may be worse than the best one, in ticks
+  bool is_wandering_ = false;
   std::vector<Change> journal_;  ///< from the best plan to this one
   std::uint64_t improvements_ = 0;
   bool saw_limit_ = false;  ///< it makes no more attempts
