@@ -20,11 +20,12 @@ struct UnitImprovement {
   SearchStatistics statistics;
 };
 
-/// Improves a plan of unit moves until a limit is reached, or until it gains next to nothing and most of the
-/// budget is used:
+/// Improves a plan of unit moves until a limit is reached. It ends earlier if it gains next to nothing, and
+/// most of the budget is used or it was in vain to go elsewhere:
 ///  (1) the result is never worse than the given plan (is_better());
 ///  (2) it is free of conflicts, and of unit moves and waits alone;
-///  (3) the same input, options and number of iterations give the same result, on any number of threads.
+///  (3) the same input and options, with a limit of iterations, give the same result on any number of
+///  threads.
 /// `most_expansions` is one more limit, to within a round of attempts.
 /// None if the plan is none of unit moves, if the instance is beyond plan_complete(), or if the plan's robots
 /// turn in a ring without any room to spare. Of the options count ssi_s, improve, objective, seed, threads

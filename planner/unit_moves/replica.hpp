@@ -8,7 +8,7 @@
 
 namespace sipplab {
 
-/// Replicas that begin with the same plan and settle the same attempts are the same.
+/// Replicas that begin with the same plan, settle the same attempts and wander at the same time are the same.
 class UnitReplica {
  public:
   /// All must outlive this.
@@ -20,8 +20,11 @@ class UnitReplica {
 
   const Timetable& plan() const { return worker_->plan(); }
   const UnitCost& cost() const { return cost_; }
+  /// Of the best plan since it began, or stayed, here.
   const UnitCost& best() const { return best_; }
-  /// Whether the plan is the best one.
+  /// Of the best plan of all.
+  const UnitCost& least() const { return least_; }
+  /// Whether the plan is the best one since it came here.
   bool is_at_best() const { return journal_.empty(); }
   /// How often a plan was better than all before.
   std::uint64_t improvements() const { return improvements_; }
@@ -53,7 +56,7 @@ class UnitReplica {
   Roulette<kUnitWays> paths_;
   UnitCost cost_;
   UnitCost best_;
-  UnitCost least_;    ///< of all plans
+  UnitCost least_;
   double slack_ = 0;  ///< by which a plan may be worse than the best one, in ticks
   bool is_wandering_ = false;
   std::vector<Change> journal_;  ///< from the best plan to this one

@@ -303,7 +303,7 @@ const PropertyRoom room("unit_moves", [] {
   });
 
   passed &= property(
-      "where unit moves gain nothing more the search goes elsewhere, and loses nothing",
+      "where unit moves gain nothing more the search goes elsewhere; the best plan is the result",
       [] {
         constexpr std::size_t kMostRobots = 12;
         // Ticks are rounded up: at most so many stops, 4,096 to a second.
@@ -326,63 +326,71 @@ const PropertyRoom room("unit_moves", [] {
           least_s += std::abs(agent.start.x - agent.goal.x) + std::abs(agent.start.y - agent.goal.y);
         }
         // The first look is after 80 iterations a robot, and each search elsewhere takes as many and more.
-        const auto rounds = *rc::gen::inRange<std::uint64_t>(165, 340);
-        const auto more = *rc::gen::inRange<std::uint64_t>(1, 100);
+        // That no better plan was lost is asserted by the search.
+        planned.options.objective =
+            *rc::gen::element(Objective{1, 0}, Objective{0, 1}, Objective{1, 1}, Objective{1, 20});
         planned.options.improve = ImproveBudget{};
-        planned.options.improve->iterations = agents.size() * rounds;
+        planned.options.improve->iterations = agents.size() * *rc::gen::inRange<std::uint64_t>(165, 440);
         const UnitImprovement one = improved(planned);
         RC_CLASSIFY(one.log.iterations > agents.size() * 160 + 64, "elsewhere");
         RC_ASSERT(static_cast<double>(one.log.iterations) >=
                       0.8 * static_cast<double>(planned.options.improve->iterations) ||
                   flowtime_s(one.solution) <= least_s + kRoundingS);
+        const std::vector<ProgressPoint>& curve = one.log.curve;
+        for (std::size_t i = 1; i < curve.size(); ++i) {
+          RC_ASSERT(!is_better(planned.options.objective, curve[i - 1].cost, curve[i].cost));
+        }
+        assert_valid(planned.plan_case.instance, one.solution, {one.order.kept_s, one.order.order, {}});
         planned.options.threads = *rc::gen::inRange(1U, 4U);
-        RC_ASSERT(improved(planned).solution == one.solution);
-        planned.options.improve->iterations += agents.size() * more;
-        RC_ASSERT(flowtime_s(improved(planned).solution) <= flowtime_s(one.solution) + kRoundingS);
+        const UnitImprovement same = improved(planned);
+        RC_ASSERT(same.solution == one.solution);
+        RC_ASSERT(same.log.improvements == one.log.improvements);
       },
       kCasesOfWorlds / 4);
 
-  passed &= property("a replica that wanders takes over worse plans, and none is better where it stays", [] {
-    const Planned planned = any_planned();
-    const Objective& objective = planned.options.objective;
-    const Routes plan(planned.plan_case.instance, planned.result.solution);
-    SharedDistances distances(plan.grid, plan.starts, plan.goals);
-    const SearchLimits limits;
-    UnitReplica replica(plan.moves, distances, objective, limits);
-    replica.begin(plan.routes);
-    const double before = value(objective, replica.best());
-    const auto share = *rc::gen::element(0.0, 0.05, 0.5);
-    replica.wander(share);
-    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-    UnitWorker worker(plan.moves, distances, plan.routes);
-    const UnitAttempt first = worker.attempt(
-        {objective, Roulette<kUnitWays>(), replica.cost(), before + share * before}, Random(seed));
-    RC_ASSERT(replica.attempt(Random(seed)).is_accepted == first.is_accepted);
-    std::vector<Route> routes = plan.routes;
-    double worst = before;
-    double least = before;
-    for (std::uint64_t i = 0; i < 60; ++i) {
-      const UnitAttempt attempt = replica.attempt(Random(seed + i));
-      replica.settle(attempt);
-      for (std::size_t k = 0; attempt.is_accepted && k < attempt.robots.size(); ++k) {
-        routes[attempt.robots[k]] = attempt.found[k];
-      }
-      RC_ASSERT(routes_of(replica.plan()) == routes);
-      worst = std::max(worst, value(objective, replica.cost()));
-      least = std::min(least, value(objective, replica.cost()));
-    }
-    RC_CLASSIFY(worst > before, "worse");
-    RC_CLASSIFY(worst > 1.05 * before, "much worse");
-    const bool stays = *rc::gen::arbitrary<bool>();
-    if (stays) replica.stay();
-    replica.roll_back();
-    if (stays) {
-      RC_ASSERT(routes_of(replica.plan()) == routes);
-    } else {
-      RC_ASSERT(value(objective, cost_of(routes_of(replica.plan()))) == least);
-    }
-    RC_ASSERT(value(objective, replica.best()) == value(objective, replica.cost()));
-  });
+  passed &= property(
+      "a replica that wanders takes over plans that are worse by a share, and rolls back to the best", [] {
+        const Planned planned = any_planned();
+        const Objective& objective = planned.options.objective;
+        const Routes plan(planned.plan_case.instance, planned.result.solution);
+        SharedDistances distances(plan.grid, plan.starts, plan.goals);
+        const SearchLimits limits;
+        UnitReplica replica(plan.moves, distances, objective, limits);
+        replica.begin(plan.routes);
+        const double before = value(objective, replica.best());
+        const auto share = *rc::gen::element(0.0, 0.05, 0.5);
+        replica.wander(share);
+        const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+        UnitWorker worker(plan.moves, distances, plan.routes);
+        const UnitAttempt first = worker.attempt(
+            {objective, Roulette<kUnitWays>(), replica.cost(), before + share * before}, Random(seed));
+        RC_ASSERT(replica.attempt(Random(seed)).is_accepted == first.is_accepted);
+        std::vector<Route> routes = plan.routes;
+        double worst = before;
+        double least = before;
+        for (std::uint64_t i = 0; i < 60; ++i) {
+          const UnitAttempt attempt = replica.attempt(Random(seed + i));
+          replica.settle(attempt);
+          for (std::size_t k = 0; attempt.is_accepted && k < attempt.robots.size(); ++k) {
+            routes[attempt.robots[k]] = attempt.found[k];
+          }
+          RC_ASSERT(routes_of(replica.plan()) == routes);
+          worst = std::max(worst, value(objective, replica.cost()));
+          least = std::min(least, value(objective, replica.cost()));
+        }
+        RC_ASSERT(worst <= before + share * before);
+        RC_CLASSIFY(worst > before, "worse");
+        RC_CLASSIFY(worst > 1.05 * before, "much worse");
+        const bool stays = *rc::gen::arbitrary<bool>();
+        if (stays) replica.stay();
+        replica.roll_back();
+        if (stays) {
+          RC_ASSERT(routes_of(replica.plan()) == routes);
+        } else {
+          RC_ASSERT(value(objective, cost_of(routes_of(replica.plan()))) == least);
+        }
+        RC_ASSERT(value(objective, replica.best()) == value(objective, replica.cost()));
+      });
 
   passed &= property("unit moves go on where their last gains are ten times those of cutting corners", [] {
     constexpr std::uint64_t kIterations = 8500;  // and 1,500 are left
@@ -432,7 +440,7 @@ const PropertyRoom room("unit_moves", [] {
         RC_ASSERT(!is_better(planned.options.objective, tightened, result.log.curve.back().cost));
         assert_valid(instance, result.solution, {result.ssi_kept_s, result.order.value_or(PriorityOrder{})});
       },
-      kCasesOfWorlds / 4);
+      kCasesOfWorlds / 2);
 
   passed &= property("a search by unit moves arrives when SIPP over the same disks does", [] {
     const Planned planned = any_planned();

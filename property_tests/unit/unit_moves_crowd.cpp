@@ -36,5 +36,28 @@ TEST(UnitMoves, AThousandRobotsGetTheSamePlanOnAnyNumberOfThreads) {
   }
 }
 
+TEST(UnitMoves, TheBestPlanOfACrowdIsTheResultWhereverItWanders) {
+  GeneratorOptions wanted;
+  wanted.agents = 40;
+  const Expected<Instance, std::string> instance = generate_instance(*parse_map_spec("empty:10x10"), wanted);
+  ASSERT_TRUE(instance) << instance.error();
+  const CompleteResult planned = plan_complete(*instance, {});
+  ASSERT_EQ(planned.status, LacamStatus::kSolved);
+  // With seed 44 the best plan is one that it leaves while it wanders.
+  for (std::uint64_t seed = 42; seed < 46; ++seed) {
+    PlannerOptions options;
+    options.seed = seed;
+    options.improve = ImproveBudget{};
+    options.improve->iterations = 12'000 + 16 * seed;
+    const std::optional<UnitImprovement> result = improve_unit_moves(*instance, planned.solution, options);
+    ASSERT_TRUE(result.has_value());
+    const std::vector<ProgressPoint>& curve = result->log.curve;
+    for (const ProgressPoint& point : curve) {
+      EXPECT_GE(point.cost.flowtime_s, flowtime_s(result->solution));  // the search asserts it of all plans
+    }
+    EXPECT_GE(result->log.iterations, 9'600U);
+  }
+}
+
 }  // namespace
 }  // namespace sipplab
