@@ -30,6 +30,15 @@ void make_room(T*& row, std::uint32_t count, std::uint32_t& capacity, Arena& are
   capacity = larger;
 }
 
+/// Where in a word of four ids this one is: 0, 16, 32 or 48, the lowest; 64 if nowhere.
+int shift_of(std::uint16_t id, std::uint64_t ids) {
+  constexpr std::uint64_t kOnes = 0x0001'0001'0001'0001;
+  const std::uint64_t differences = ids ^ kOnes * id;
+  // Its lowest bit is in the lowest lane that is zero (Mycroft 1987); those above it may be wrong.
+  const std::uint64_t zeros = (differences - kOnes) & ~differences & kOnes << 15;
+  return std::countr_zero(zeros) & ~15;
+}
+
 }  // namespace
 
 Blocks::Blocks(const GridMap& map, double room, std::size_t most) : room_(room) {
@@ -87,32 +96,46 @@ void Slice::overflow(Slot& slot, Arena& arena) {
 
 void Slice::remove(std::uint32_t disk, const Sweep& sweep, const Blocks& blocks) {
   EntryId entry = 0;
-  blocks.for_each_near(sweep, [&](std::size_t block) { entry = take_out(slots_[block], disk); });
+  blocks.for_each_near(sweep, [&](std::size_t block) {
+    if (entry == 0) entry = entry_of(slots_[block], disk);
+    take_out(slots_[block], entry);
+  });
   entries_[entry].disk = free_entry_;
   free_entry_ = entry;
 }
 
-Slice::EntryId Slice::take_out(Slot& head, std::uint32_t disk) {
-  // The newest of the first slot replaces the one that is removed.
-  const auto newest = static_cast<EntryId>(head.low & UINT16_MAX);
-  for (Slot* slot = &head;; slot = &more_[slot->high >> kMoreShift]) {
-    for (std::uint64_t* word : {&slot->low, &slot->high}) {
-      const int most = word == &slot->low ? kMoreShift : kMoreShift - kIdBits;
-      for (int shift = 0; shift <= most; shift += kIdBits) {
-        const auto entry = static_cast<EntryId>(*word >> shift & UINT16_MAX);
-        if (entry == 0 || entries_[entry].disk != disk) continue;
-        *word ^= std::uint64_t{static_cast<EntryId>(entry ^ newest)} << shift;
-        head.pop();
-        const std::uint64_t more = head.high >> kMoreShift;
-        if (head.low == 0 && more != 0) {
-          head = more_[more];
-          more_[more].low = free_more_;
-          free_more_ = static_cast<std::uint32_t>(more);
-        }
-        return entry;
+Slice::EntryId Slice::entry_of(const Slot& head, std::uint32_t disk) const {
+  for (const Slot* slot = &head;; slot = &more_[slot->high >> kMoreShift]) {
+    for (std::uint64_t ids : {slot->low, slot->high & kIdsOfHigh}) {
+      for (; ids != 0; ids >>= kIdBits) {
+        const auto entry = static_cast<EntryId>(ids & UINT16_MAX);
+        if (entries_[entry].disk == disk) return entry;
       }
     }
     PLANNER_ASSERT(slot->high >> kMoreShift != 0);
+  }
+}
+
+void Slice::take_out(Slot& head, EntryId entry) {
+  // The newest of the first slot replaces the one that is removed.
+  const std::uint64_t change = entry ^ (head.low & UINT16_MAX);
+  for (Slot* slot = &head;; slot = &more_[slot->high >> kMoreShift]) {
+    if (const int shift = shift_of(entry, slot->low); shift <= kMoreShift) {
+      slot->low ^= change << shift;
+      break;
+    }
+    if (const int shift = shift_of(entry, slot->high); shift < kMoreShift) {
+      slot->high ^= change << shift;
+      break;
+    }
+    PLANNER_ASSERT(slot->high >> kMoreShift != 0);
+  }
+  head.pop();
+  const std::uint64_t more = head.high >> kMoreShift;
+  if (head.low == 0 && more != 0) {
+    head = more_[more];
+    more_[more].low = free_more_;
+    free_more_ = static_cast<std::uint32_t>(more);
   }
 }
 

@@ -121,7 +121,10 @@ class Slice {
     slot.push(entry);
   }
   void overflow(Slot& slot, Arena& arena);
-  EntryId take_out(Slot& slot, std::uint32_t disk);
+  /// The entry of a disk. REQUIRES: it is in the slot, or in one with more.
+  EntryId entry_of(const Slot& slot, std::uint32_t disk) const;
+  /// REQUIRES: as entry_of().
+  void take_out(Slot& slot, EntryId entry);
 
   Slot* slots_;           ///< by block
   SliceEntry* entries_;   ///< the first is never near
