@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
+#include "sipplab/error.hpp"
 #include "sipplab/grid_map.hpp"
 
 namespace sipplab {
@@ -21,5 +24,31 @@ inline double turn_deg(double from_deg, double to_deg) {
   const double apart = std::abs(from_deg - to_deg);
   return std::min(apart, kFullTurnDeg - apart);
 }
+
+/// Remembers heading_deg() by displacement. For one thread at a time.
+class Headings {
+ public:
+  /// heading_deg(from, to), to the last bit. REQUIRES: from != to.
+  double deg(Cell from, Cell to) const {
+    PLANNER_ASSERT(from != to);
+    const auto columns = static_cast<std::uint32_t>(to.x - from.x);
+    const auto rows = static_cast<std::uint32_t>(to.y - from.y);
+    const std::uint64_t displacement = std::uint64_t{columns} << 32 | rows;
+    Known& known = known_[(displacement * kHashFactor) >> (64 - kKnownBits)];
+    if (known.displacement != displacement) known = {displacement, heading_deg(from, to)};
+    return known.deg;
+  }
+
+ private:
+  struct Known {
+    std::uint64_t displacement = 0;  ///< that of no two cells, at first
+    double deg = 0;
+  };
+  /// 64 KiB: a search asks for some hundred displacements again and again.
+  static constexpr int kKnownBits = 12;
+  static constexpr std::uint64_t kHashFactor = 0x9e3779b97f4a7c15;  ///< 2^64 / the golden ratio
+
+  mutable std::vector<Known> known_ = std::vector<Known>(std::size_t{1} << kKnownBits);
+};
 
 }  // namespace sipplab

@@ -20,7 +20,7 @@ namespace sipplab {
 /// What the table must know about the asking robots and their rules.
 struct Askers {
   double max_radius_cells = 0.5;
-  double max_speed_cells_per_s = 1;  ///< faster robots may ask; their queries take longer
+  double speed_cells_per_s = 1;  ///< of slow robots; any others may ask, too
   /// Every disk also occupies its place this much earlier and later.
   double time_margin_s = 0;
 };

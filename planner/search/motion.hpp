@@ -20,8 +20,9 @@ class PlainMotion {
   using Node = SippNode;
   using Nodes = ArenaVector<Node>;
   struct Heading {};
+  struct Headings {};
 
-  PlainMotion(const Agent&, const MotionRules&) {}
+  PlainMotion(const Agent&, const MotionRules&, const Headings&) {}
 
   static Heading heading(Cell, Cell) { return {}; }
   static Heading heading(const Node&) { return {}; }
@@ -30,8 +31,12 @@ class PlainMotion {
   static double ready_s(const Node& node, Heading) { return node.arrival_s; }
   /// A lower bound on the time to add to the travel from the cell to the goal.
   static double standing_s(Cell, Heading) { return 0; }
-  /// The earliest known arrival in the node's safe interval with this heading.
-  static double known_s(const Nodes& nodes, NodeId id, Heading) { return nodes[id].arrival_s; }
+  /// The earliest known arrival in the node's safe interval with this heading, or any before `before_s`.
+  static double known_s(const Nodes& nodes, NodeId id, Heading, double /*before_s*/ = 0) {
+    return nodes[id].arrival_s;
+  }
+  /// What a node gets when it is laid out. `least_s`: the heuristic, not weighted, without turns.
+  static void lay_out(Node&, NodeId, double /*least_s*/) {}
   /// The node for an earlier arrival with this heading.
   static NodeId node_for(Nodes&, NodeId id, Heading, double) { return id; }
   static void face(Node&, Heading) {}
@@ -44,6 +49,7 @@ class PlainMotion {
 /// that was laid out.
 struct TurningNode : SippNode {
   double heading_deg = 0;
+  double least_s = 0;      ///< to the goal, as if without turns; not weighted
   NodeId first = kNoNode;  ///< of the list
   NodeId next = kNoNode;
 };
@@ -57,10 +63,16 @@ class TurningMotion {
   using Node = TurningNode;
   using Nodes = ArenaVector<Node>;
   using Heading = double;
+  using Headings = sipplab::Headings;
 
-  TurningMotion(const Agent& agent, const MotionRules& rules) : agent_(&agent), rules_(&rules) {}
+  /// All must outlive this.
+  TurningMotion(const Agent& agent, const MotionRules& rules, const Headings& headings)
+      : agent_(&agent),
+        rules_(&rules),
+        headings_(&headings),
+        deg_per_s_(rules.turns ? kHalfTurnDeg * agent.rotation_speed : kForever) {}
 
-  Heading heading(Cell from, Cell to) const { return rules_->turns ? heading_deg(from, to) : 0; }
+  Heading heading(Cell from, Cell to) const { return rules_->turns ? headings_->deg(from, to) : 0; }
   Heading heading(const Node& node) const { return node.heading_deg; }
   Heading start_heading() const { return rules_->turns ? agent_->start_heading_deg : 0; }
   double ready_s(const Node& node, Heading to) const {
@@ -74,14 +86,24 @@ class TurningMotion {
     if (cell == agent_->goal) return last_s;
     return rules_->wait_before_move_s + std::max(turn_s(now, heading(cell, agent_->goal)), last_s);
   }
-  double known_s(const Nodes& nodes, NodeId id, Heading heading) const {
+  double known_s(const Nodes& nodes, NodeId id, Heading heading, double before_s = 0) const {
+    if (last_.id == id && last_.heading == heading) return last_.known_s;
     double known_s = kForever;
-    for (id = nodes[id].first; id != kNoNode; id = nodes[id].next) {
-      known_s = std::min(known_s, nodes[id].arrival_s + turn_s(nodes[id].heading_deg, heading));
+    for (NodeId at = nodes[id].first; at != kNoNode; at = nodes[at].next) {
+      const Node& node = nodes[at];
+      if (node.arrival_s >= known_s) continue;  // turns take time
+      known_s = std::min(known_s, node.arrival_s + turn_s(node.heading_deg, heading));
+      if (known_s < before_s) return known_s;
     }
+    last_ = {id, heading, known_s};
     return known_s;
   }
+  static void lay_out(Node& node, NodeId id, double least_s) {
+    node.first = id;
+    node.least_s = least_s;
+  }
   NodeId node_for(Nodes& nodes, NodeId id, Heading heading, double to_goal_s) const {
+    last_.id = kNoNode;
     const NodeId first = nodes[id].first;
     if (nodes[first].arrival_s < kForever) {
       id = static_cast<NodeId>(nodes.size());
@@ -107,12 +129,19 @@ class TurningMotion {
   }
 
  private:
-  double turn_s(double from_deg, double to_deg) const {
-    return rules_->turns ? turn_deg(from_deg, to_deg) / (kHalfTurnDeg * agent_->rotation_speed) : 0;
-  }
+  double turn_s(double from_deg, double to_deg) const { return turn_deg(from_deg, to_deg) / deg_per_s_; }
 
   const Agent* agent_;
   const MotionRules* rules_;
+  const Headings* headings_;
+  double deg_per_s_;  ///< turns take no time if there are none
+  /// The last answer of known_s(), while it holds: of a lazy successor it is asked twice.
+  struct Known {
+    NodeId id = kNoNode;
+    Heading heading = 0;
+    double known_s = 0;
+  };
+  mutable Known last_;
 };
 
 }  // namespace sipplab

@@ -60,7 +60,7 @@ Sipp<Motion>::Sipp(const Instance& instance, SippOptions options)
     : instance_(instance),
       options_(options),
       bodies_(bodies_of(instance, {options.any_angle, options.connectedness, options.static_distances})),
-      motion_(Agent{}, options_.rules),
+      motion_(Agent{}, options_.rules, headings_),
       cell_nodes_(arena_),
       nodes_(arena_),
       open_(arena_) {
@@ -121,7 +121,7 @@ Expected<Trajectory, PlanFailure> Sipp<Motion>::plan(AgentIndex agent, Reservati
 template <class Motion>
 double Sipp<Motion>::lower_bound_s(AgentIndex agent) const {
   const Agent& asked = instance_.agents[agent];
-  const Motion motion(asked, options_.rules);
+  const Motion motion(asked, options_.rules, headings_);
   return line_cells(asked.start, asked.goal) / asked.speed_cells_per_s +
          motion.standing_s(asked.start, motion.start_heading());
 }
@@ -129,7 +129,7 @@ double Sipp<Motion>::lower_bound_s(AgentIndex agent) const {
 template <class Motion>
 void Sipp<Motion>::begin(const Agent& agent, ReservationTable& reservations) {
   agent_ = &agent;
-  motion_ = Motion(agent, options_.rules);
+  motion_ = Motion(agent, options_.rules, headings_);
   moving_radius_ = agent.radius_cells + options_.rules.inflate_distance_cells;
   body_ = &bodies_.at(agent.radius_cells);
   if (options_.static_distances) body_->set_goal(agent.goal, agent.start);
@@ -148,14 +148,15 @@ const typename Sipp<Motion>::CellNodes& Sipp<Motion>::lay_out(Cell cell) {
   nodes.search = search_;
   nodes.first = static_cast<NodeId>(nodes_.size());
   Node node;
-  node.to_goal_s = options_.weight * heuristic_s(cell);
+  const double least_s = heuristic_s(cell);
+  node.to_goal_s = options_.weight * least_s;
   node.x = static_cast<std::int16_t>(cell.x);
   node.y = static_cast<std::int16_t>(cell.y);
   const double soonest_s = seconds(distance(agent_->start, cell)) - kSoonerS;
   for (const SafeInterval& interval : reservations_->safe_intervals(cell, agent_->radius_cells)) {
     if (interval.end_s < soonest_s) continue;  // no arrival in time
     node.interval = interval;
-    if constexpr (Motion::kTurns) node.first = static_cast<NodeId>(nodes_.size());
+    motion_.lay_out(node, static_cast<NodeId>(nodes_.size()), least_s);
     nodes_.push_back(node);
   }
   nodes.last = static_cast<NodeId>(nodes_.size());
@@ -176,8 +177,11 @@ double Sipp<Motion>::heuristic_s(Cell cell) {
 template <class Motion>
 bool Sipp<Motion>::is_overtaken(const OpenList::Entry& entry) const {
   const Node& node = nodes_[entry.node];
-  if (!entry.is_lazy()) return entry.arrival_s > motion_.known_s(nodes_, entry.node, motion_.heading(node));
-  const double known_s = motion_.known_s(nodes_, entry.node, heading_of(nodes_[entry.from], node));
+  const auto known_with = [&](Heading heading) {
+    return motion_.known_s(nodes_, entry.node, heading, entry.arrival_s);
+  };
+  if (!entry.is_lazy()) return entry.arrival_s > known_with(motion_.heading(node));
+  const double known_s = known_with(heading_of(nodes_[entry.from], node));
   if (entry.arrival_s != known_s) return entry.arrival_s > known_s;
   // Steps along a straight line may arrive sooner by rounding, and are then kept.
   return entry.parent == kNoNode || !lies_between(nodes_[entry.parent], nodes_[entry.from], node);
@@ -241,10 +245,11 @@ void Sipp<Motion>::expand(NodeId id) {
 
 template <class Motion>
 void Sipp<Motion>::offer(const Edge& edge, NodeId parent, NodeId target, NodeId last) {
+  const NodeId asked = Motion::kTurns ? edge.from : parent;
   for (; target != last && nodes_[target].interval.begin_s <= edge.latest_s; ++target) {
     const Node& node = nodes_[target];
     double soonest_s = edge.soonest_s;
-    if (parent != kNoNode && node.knows_edge_from(parent, nodes_[parent])) {
+    if (asked != kNoNode && node.knows_edge_from(asked, nodes_[asked])) {
       soonest_s = std::min(std::max(soonest_s, node.edge_departure_s + edge.travel_s), edge.step_soonest_s);
     }
     if (!may_gain(target, edge.heading, soonest_s)) continue;
@@ -255,8 +260,8 @@ void Sipp<Motion>::offer(const Edge& edge, NodeId parent, NodeId target, NodeId 
 
 template <class Motion>
 NodeId Sipp<Motion>::evaluate(NodeId from, NodeId parent, NodeId id) {
-  if (from == parent) {
-    const NodeId reached = arrive_straight(parent, id);
+  if (from == parent || Motion::kTurns) {  // with headings each move is a successor of its own
+    const NodeId reached = arrive_straight(from, id);
     if (reached != kNoNode) ++statistics_->generations;
     return reached;
   }

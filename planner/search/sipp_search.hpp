@@ -93,10 +93,12 @@ class Sipp final : public SingleAgentPlanner {
   /// At most the time of a path by steps from the cell to the goal; not weighted, without turns.
   double heuristic_s(Cell cell);
   /// The weighted heuristic for an arrival at the node with this heading.
-  double to_goal_s(NodeId id, Heading heading) {
-    if constexpr (!Motion::kTurns) return nodes_[id].to_goal_s;
-    const Cell cell = nodes_[id].cell();
-    return options_.weight * (heuristic_s(cell) + motion_.standing_s(cell, heading));
+  double to_goal_s(NodeId id, Heading heading) const {
+    if constexpr (Motion::kTurns) {
+      return options_.weight * (nodes_[id].least_s + motion_.standing_s(nodes_[id].cell(), heading));
+    } else {
+      return nodes_[id].to_goal_s;
+    }
   }
   /// At most the arrival at the goal via the node and steps from there, the latter weighted.
   static double f(const Node& node) { return node.arrival_s + node.to_goal_s; }
@@ -120,7 +122,7 @@ class Sipp final : public SingleAgentPlanner {
   bool may_gain(NodeId id, Heading heading, double soonest_s) const {
     const SafeInterval& interval = nodes_[id].interval;
     const double earliest_s = std::max(interval.begin_s, soonest_s);
-    return earliest_s <= interval.end_s && earliest_s < motion_.known_s(nodes_, id, heading);
+    return earliest_s <= interval.end_s && earliest_s < motion_.known_s(nodes_, id, heading, earliest_s);
   }
   /// Evaluates a lazy successor. Returns the node whose arrival fell, or kNoNode.
   NodeId evaluate(NodeId from, NodeId parent, NodeId id);
@@ -174,6 +176,7 @@ class Sipp final : public SingleAgentPlanner {
 
   // The current search.
   const Agent* agent_ = nullptr;
+  typename Motion::Headings headings_;
   Motion motion_;
   double moving_radius_ = 0;  ///< cells
   Body* body_ = nullptr;

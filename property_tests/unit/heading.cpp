@@ -38,6 +38,21 @@ TEST(Heading, AnyTwoCellsWillDo) {
   EXPECT_EQ(heading_deg({kMost, 0}, {-kMost, 0}), 180);
 }
 
+TEST(Heading, IsTheSameWhenRemembered) {
+  const Headings headings;
+  constexpr std::int32_t kMost = 40;  // more displacements than are remembered
+  for (int time = 0; time < 2; ++time) {
+    for (std::int32_t x = -kMost; x <= kMost; ++x) {
+      for (std::int32_t y = -kMost; y <= kMost; ++y) {
+        if (x == 0 && y == 0) continue;
+        const double once = heading_deg({0, 0}, {x, y});
+        ASSERT_EQ(headings.deg({0, 0}, {x, y}), once) << x << " " << y;
+        ASSERT_EQ(headings.deg({50, 60}, {50 + x, 60 + y}), once) << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST(Heading, TurnsTheShorterWay) {
   EXPECT_EQ(turn_deg(10, 350), 20);
   EXPECT_EQ(turn_deg(350, 10), 20);
