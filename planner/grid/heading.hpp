@@ -31,8 +31,8 @@ class Headings {
   /// heading_deg(from, to), to the last bit. REQUIRES: from != to.
   double deg(Cell from, Cell to) const {
     PLANNER_ASSERT(from != to);
-    const auto columns = static_cast<std::uint32_t>(to.x - from.x);
-    const auto rows = static_cast<std::uint32_t>(to.y - from.y);
+    const std::uint32_t columns = static_cast<std::uint32_t>(to.x) - static_cast<std::uint32_t>(from.x);
+    const std::uint32_t rows = static_cast<std::uint32_t>(to.y) - static_cast<std::uint32_t>(from.y);
     const std::uint64_t displacement = std::uint64_t{columns} << 32 | rows;
     Known& known = known_[(displacement * kHashFactor) >> (64 - kKnownBits)];
     if (known.displacement != displacement) known = {displacement, heading_deg(from, to)};
@@ -44,7 +44,7 @@ class Headings {
     std::uint64_t displacement = 0;  ///< that of no two cells, at first
     double deg = 0;
   };
-  /// 64 KiB: a search asks for some hundred displacements again and again.
+  /// 64 KiB. On maps of 32 x 32 cells there are 3,969 displacements.
   static constexpr int kKnownBits = 12;
   static constexpr std::uint64_t kHashFactor = 0x9e3779b97f4a7c15;  ///< 2^64 / the golden ratio
 

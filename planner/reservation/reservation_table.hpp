@@ -20,7 +20,8 @@ namespace sipplab {
 /// What the table must know about the asking robots and their rules.
 struct Askers {
   double max_radius_cells = 0.5;
-  double speed_cells_per_s = 1;  ///< of slow robots; any others may ask, too
+  /// Slices of time suit this speed. Robots of any other may ask, too: queries of faster ones take longer.
+  double speed_cells_per_s = 1;
   /// Every disk also occupies its place this much earlier and later.
   double time_margin_s = 0;
 };
@@ -30,9 +31,9 @@ Askers askers_of(const Instance& instance, const MotionRules& rules = {});
 
 /// Disks in motion, found by place and time.
 ///
-/// They lie in slices of time, each as long as the fastest robot needs for two cells (TimeSlices): a query
-/// looks once into each slice that it meets. Slices only name candidates; the closed form of
-/// collision_interval.hpp decides.
+/// They lie in slices of time, each as long as a robot of usual speed needs for two cells (TimeSlices): a
+/// query looks once into each slice that it meets, or for a faster robot once for two cells. Slices only name
+/// candidates; the closed form of collision_interval.hpp decides.
 class ReservationTable final : public Reservations {
  public:
   using DiskId = std::uint32_t;

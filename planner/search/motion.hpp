@@ -37,7 +37,7 @@ class PlainMotion {
   }
   /// What a node gets when it is laid out. `least_s`: the heuristic, not weighted, without turns.
   static void lay_out(Node&, NodeId, double /*least_s*/) {}
-  /// The node for an earlier arrival with this heading.
+  /// The node for an earlier arrival with this heading, which it gets next.
   static NodeId node_for(Nodes&, NodeId id, Heading, double) { return id; }
   static void face(Node&, Heading) {}
   /// Adds the turn to this heading; returns its end.
@@ -65,7 +65,7 @@ class TurningMotion {
   using Heading = double;
   using Headings = sipplab::Headings;
 
-  /// All must outlive this.
+  /// All must outlive the searches.
   TurningMotion(const Agent& agent, const MotionRules& rules, const Headings& headings)
       : agent_(&agent),
         rules_(&rules),

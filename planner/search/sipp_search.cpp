@@ -281,13 +281,13 @@ NodeId Sipp<Motion>::evaluate(NodeId from, NodeId parent, NodeId id) {
 }
 
 template <class Motion>
-NodeId Sipp<Motion>::arrive_straight(NodeId parent, NodeId id) {
-  const std::uint16_t version = nodes_[parent].version;
+NodeId Sipp<Motion>::arrive_straight(NodeId from, NodeId id) {
+  const std::uint16_t version = nodes_[from].version;
   const Node& target = nodes_[id];
-  const double known_s = target.knows_edge_from(parent, nodes_[parent]) ? target.edge_departure_s : 0;
+  const double known_s = target.knows_edge_from(from, nodes_[from]) ? target.edge_departure_s : 0;
   double departure_s = 0;
-  const NodeId reached = arrive(parent, id, known_s, Tie::kKeep, &edge_blocker_, departure_s);
-  if (departure_s > 0) nodes_[id].know_edge_from(parent, version, departure_s);
+  const NodeId reached = arrive(from, id, known_s, Tie::kKeep, &edge_blocker_, departure_s);
+  if (departure_s > 0) nodes_[id].know_edge_from(from, version, departure_s);
   return reached;
 }
 

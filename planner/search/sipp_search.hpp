@@ -126,8 +126,9 @@ class Sipp final : public SingleAgentPlanner {
   }
   /// Evaluates a lazy successor. Returns the node whose arrival fell, or kNoNode.
   NodeId evaluate(NodeId from, NodeId parent, NodeId id);
-  /// Lowers the arrival at node `id` to that of the straight move from `parent`, if earlier.
-  NodeId arrive_straight(NodeId parent, NodeId id);
+  /// Lowers the arrival at node `id` to that of the straight move from `from`, if earlier. What was found out
+  /// about the move is remembered.
+  NodeId arrive_straight(NodeId from, NodeId id);
   /// The same for the step from `from`.
   NodeId arrive_by_step(NodeId from, NodeId id, Tie tie) {
     double departure_s = 0;
@@ -172,11 +173,11 @@ class Sipp final : public SingleAgentPlanner {
   SippOptions options_;
   Bodies bodies_;
   std::vector<double> step_lengths_;  ///< in cells, by step of the neighbourhood
+  typename Motion::Headings headings_;
   Arena arena_;
 
   // The current search.
   const Agent* agent_ = nullptr;
-  typename Motion::Headings headings_;
   Motion motion_;
   double moving_radius_ = 0;  ///< cells
   Body* body_ = nullptr;
