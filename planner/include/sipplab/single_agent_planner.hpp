@@ -71,6 +71,7 @@ class Reservations {
                                     double from_s, double until_s) const = 0;
 };
 
+/// For one thread at a time, const functions, too: they may remember what they find out.
 class SingleAgentPlanner {
  public:
   virtual ~SingleAgentPlanner() = default;
